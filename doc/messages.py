@@ -48,7 +48,7 @@ SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary
             "reader/pair_sides": "Contact NAME", "reader/bodies_reader": "Contact NAME", "reader/body_reader": "Material NAME",
             "reader/material_reader": "Material NAME", "checks/supports": "Boundary NAME",
             "checks/parts": "Boundary NAME", "checks/method": "Boundary NAME", "checks/exact_agreement": "Boundary NAME",
-            "closed_forms/closed_form": "Boundary NAME", "plane/contact_numbering": "Boundary NAME", "space/moment_space": "Boundary NAME",
+            "closed_forms/closed_form": "Boundary NAME", "plane/contact_numbering": "Boundary NAME", "space/primal_space": "Boundary NAME",
             "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Material NAME", "shapes/shape": "Geometry"}
 # What the refused input of other sources is about.
 SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/free_names"),

@@ -32,7 +32,7 @@ EVALUATIONS = {
     "include/hpvi/bound/admissible_pressure.h": 1, "include/hpvi/plane/load_quadrature.h": 1,
     "include/hpvi/plane/contact_space.h": 2, "include/hpvi/plane/initial_stress.h": 3,
     "include/hpvi/results/contact_traces.h": 1, "include/hpvi/results/turned_divergence.h": 1,
-    "include/hpvi/space/moment_space.h": 1, "source/bound/admissible_pressure.cc": 4,
+    "include/hpvi/space/primal_space.h": 1, "source/bound/admissible_pressure.cc": 4,
     "source/bound/face_contact.cc": 1, "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
     "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 5,
     "source/plane/contact_numbering.cc": 6, "source/plane/static_admissibility.cc": 1, "source/plane/elastic_system.cc": 2,
@@ -43,9 +43,9 @@ EVALUATIONS = {
     "source/results/contact_state.cc": 2, "source/results/elastic_strain.cc": 1,
     "source/results/residual_estimator.cc": 4, "source/results/true_error.cc": 3, "source/results/unseen_contact.cc":
     2, "source/bound/open_contact.cc": 1, "source/bound/stress_work.cc": 1, "source/bound/test_motion.cc": 1,
-    "source/space/moment_space.cc": 3, "source/space/primal_system.cc": 1, "source/space/support_constraints.cc": 1,
+    "source/space/primal_space.cc": 3, "source/space/primal_system.cc": 1, "source/space/support_constraints.cc": 1,
     "source/space/contact_statics.cc": 1, "source/space/load_check.cc": 1, "source/space/load_work.cc": 1,
-    "source/space/moment_field.cc": 1, "source/space/nodal_forces.cc": 1, "source/space/past_state.cc": 1,
+    "source/space/primal_field.cc": 1, "source/space/nodal_forces.cc": 1, "source/space/past_state.cc": 1,
     "source/space/upper_energy.cc": 1, "source/bound/edge_polynomial.cc": 1, "source/results/warnings/contact.cc": 2}
 MOST_ARROWS = 65  # between rooms
 problems = []

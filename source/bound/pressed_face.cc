@@ -15,7 +15,7 @@ namespace
 constexpr double negligible_angle = 1e-10;
 
 /** Adds `weight z psi_a` and `weight z psi_a s` at a point. */
-void add_moments(PressedFace &face, const double s, const double weighted)
+void add_contact_dofs(PressedFace &face, const double s, const double weighted)
 {
   for (unsigned int end = 0; end < 2; ++end)
   {
@@ -33,15 +33,15 @@ void set_moments(PressedFace &result, const ContactFace<2> &face, const EdgePoly
     const QGaussLobatto<1> &rule = solution.tables.gauss_lobatto(face.degree + 1);
     for (unsigned int k = 0, i = 0; k < rule.size() && i < face.normal_points.size(); ++k)
       if (face.normal_points[i] == rule.point(k)[0])
-        add_moments(result, rule.point(k)[0],
-                    face.length * rule.weight(k) * solution.z[face.pressures[i++]]);
+        add_contact_dofs(result, rule.point(k)[0],
+                         face.length * rule.weight(k) * solution.z[face.pressures[i++]]);
     return;
   }
   const QGauss<1> &gauss = solution.tables.gauss(result.n + 1);
   for (unsigned int q = 0; q < gauss.size(); ++q)
   {
     const double s = gauss.point(q)[0];
-    add_moments(result, s, face.length * gauss.weight(q) * z(s));
+    add_contact_dofs(result, s, face.length * gauss.weight(q) * z(s));
   }
 }
 

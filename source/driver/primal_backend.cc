@@ -12,9 +12,9 @@
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/space/contact_statics.h>
 #include <hpvi/space/load_check.h>
-#include <hpvi/space/moment_field.h>
-#include <hpvi/space/moment_matrix.h>
+#include <hpvi/space/newton_matrix.h>
 #include <hpvi/space/nodal_forces.h>
+#include <hpvi/space/primal_field.h>
 #include <hpvi/space/proximal_point.h>
 #include <hpvi/space/stored_values.h>
 #include <hpvi/space/transfer.h>
@@ -35,11 +35,11 @@ namespace
 {
 /** The coarse mesh of @p scene over all processes. Throws InputError where it has fewer cells, or the path refuses the scene. Collective. */
 template <int dim>
-std::shared_ptr<typename MomentSpace<dim>::Mesh> spread_mesh(const Scene<dim> &scene,
+std::shared_ptr<typename PrimalSpace<dim>::Mesh> spread_mesh(const Scene<dim> &scene,
                                                              MPI_Comm communicator)
 {
   together(communicator, [&]() { check_primal_path(scene); });
-  const auto mesh = std::make_shared<typename MomentSpace<dim>::Mesh>(communicator);
+  const auto mesh = std::make_shared<typename PrimalSpace<dim>::Mesh>(communicator);
   make_mesh(scene, static_cast<Triangulation<dim> &>(*mesh));
   const auto n = hpvi::n_processes(communicator);
   if (mesh->n_global_active_cells() < n)
@@ -55,7 +55,7 @@ std::shared_ptr<typename MomentSpace<dim>::Mesh> spread_mesh(const Scene<dim> &s
  * all levels. Measured to a quarter, without a matrix to a tenth.
  */
 template <int dim>
-double expected_bytes(const MomentSpace<dim> &space)
+double expected_bytes(const PrimalSpace<dim> &space)
 {
   if (linear_method(space) == LinearMethod::multigrid)
     return 520. * space.owned.n_elements();
@@ -66,7 +66,7 @@ double expected_bytes(const MomentSpace<dim> &space)
 }
 
 template <int dim>
-std::string matrix_name(const MomentSpace<dim> &space)
+std::string matrix_name(const PrimalSpace<dim> &space)
 {
   return (linear_method(space) == LinearMethod::multigrid ? "the levels of multigrid for "
                                                           : "the matrix and its multigrid for ") +
@@ -75,7 +75,7 @@ std::string matrix_name(const MomentSpace<dim> &space)
 
 /** What a machine that has the memory for the matrix of @p space should know before all of it is taken. Collective. */
 template <int dim>
-std::string memory_note(const MomentSpace<dim> &space)
+std::string memory_note(const PrimalSpace<dim> &space)
 {
   const double bytes = Utilities::MPI::sum(expected_bytes(space), space.communicator());
   if (bytes < 1e9)
@@ -86,7 +86,7 @@ std::string memory_note(const MomentSpace<dim> &space)
 
 /** Throws NumericalFailure on all processes where those of one machine need more than it has. Collective. */
 template <int dim>
-void require_room(const MomentSpace<dim> &space)
+void require_room(const PrimalSpace<dim> &space)
 {
   MPI_Comm machine;
   MPI_Comm_split_type(space.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
@@ -104,7 +104,7 @@ constexpr double round_off = 1e-11;
 
 template <int dim>
 PrimalBackend<dim>::PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator,
-                                  std::shared_ptr<typename MomentSpace<dim>::Mesh> all_cells)
+                                  std::shared_ptr<typename PrimalSpace<dim>::Mesh> all_cells)
     : Backend<dim>(scene, communicator), mesh(std::move(all_cells)),
       tables(scene.adaptivity.start_degree)
 {
@@ -141,7 +141,7 @@ void PrimalBackend<dim>::number()
 {
   begin("numbering the unknowns of " + std::to_string(mesh->n_global_active_cells()) + " elements");
   StageTimer timer(times.setup);
-  space = std::make_unique<MomentSpace<dim>>(scene, *mesh, tables);
+  space = std::make_unique<PrimalSpace<dim>>(scene, *mesh, tables);
 }
 
 template <int dim>
@@ -198,7 +198,7 @@ void PrimalBackend<dim>::reach_loads()
 
 /** The only long stage: it is spoken of, and may be interrupted, in each step of conjugate gradients. */
 template <int dim>
-void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, MomentMatrix<dim> &matrix,
+void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, NewtonMatrix<dim> &matrix,
                                  DistributedVector &v, const NewtonSettings &settings)
 {
   const unsigned int steps_before = matrix.n_steps;
@@ -252,7 +252,7 @@ template <int dim>
 void PrimalBackend<dim>::take()
 {
   known_energies.reset();
-  values_at_points = std::make_unique<const MomentField<dim>>(*space, shape_tables, u, lambda);
+  values_at_points = std::make_unique<const PrimalField<dim>>(*space, shape_tables, u, lambda);
   begin("estimating the error");
   StageTimer timer(times.estimate);
   together(space->communicator(), [&]() { estimated = estimate_error(*values_at_points); });
@@ -264,11 +264,11 @@ template <int dim>
 void PrimalBackend<dim>::solve()
 {
   Timer timer;
-  MomentMatrix<dim> matrix(*space, *system, given_way.value_or(linear_method(*space)));
+  NewtonMatrix<dim> matrix(*space, *system, given_way.value_or(linear_method(*space)));
   times.qp += timer.wall_time();
-  MomentNewton<dim> newton(*space, *system, matrix);
+  SemismoothNewton<dim> newton(*space, *system, matrix);
   FrictionIteration<dim> friction(*space, newton);
-  DistributedVector v = has_start ? space->moments(u) : space->owned_vector();
+  DistributedVector v = has_start ? space->in_contact_dofs(u) : space->owned_vector();
   NewtonSettings settings = first_settings();
   report = {};
   has_start = true;

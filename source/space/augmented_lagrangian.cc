@@ -15,9 +15,9 @@ constexpr unsigned int maximum_steps = 60; ///< of one minimisation
 } // namespace
 
 template <int dim>
-AugmentedLagrangian<dim>::AugmentedLagrangian(const MomentSpace<dim> &space,
+AugmentedLagrangian<dim>::AugmentedLagrangian(const PrimalSpace<dim> &space,
                                               const PrimalSystem<dim> &system,
-                                              MomentMatrix<dim> &matrix,
+                                              NewtonMatrix<dim> &matrix,
                                               const std::vector<double> &weights,
                                               const std::vector<ContactVector<dim>> &start)
     : space(space), system(system), matrix(matrix), weights(weights), lambda(start)
@@ -27,7 +27,7 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const MomentSpace<dim> &space,
     lambda[k] = space.contact[k].projected(lambda[k]);
 }
 
-/** `G_k c_k`: at first that of a body as thick as this one, in the end several times what a moment meets in A. */
+/** `G_k c_k`: at first that of a body as thick as this one, in the end several times what a contact dof meets in A. */
 template <int dim>
 double AugmentedLagrangian<dim>::stiffness(const unsigned int k) const
 {
@@ -38,8 +38,8 @@ template <int dim>
 ContactVector<dim> AugmentedLagrangian<dim>::argument(const DistributedVector &v,
                                                       const unsigned int k) const
 {
-  const ContactMoment<dim> &moment = space.contact[k];
-  return lambda[k] + stiffness(k) / weights[k] * (space.moment(v, k) - moment.gap);
+  const ContactDof<dim> &contact_dof = space.contact[k];
+  return lambda[k] + stiffness(k) / weights[k] * (space.contact_value(v, k) - contact_dof.gap);
 }
 
 template <int dim>
@@ -50,7 +50,7 @@ DistributedVector AugmentedLagrangian<dim>::gradient(const DistributedVector &v)
   result -= system.f;
   for (unsigned int k = 0; k < lambda.size(); ++k)
     if (const double G = weights[k]; G > 0)
-      space.add_moment(result, k, G * space.contact[k].projected(argument(v, k)));
+      space.add_contact_value(result, k, G * space.contact[k].projected(argument(v, k)));
   return result;
 }
 
@@ -76,9 +76,9 @@ double AugmentedLagrangian<dim>::contact_forces() const
 }
 
 template <int dim>
-std::vector<MomentState<dim>> AugmentedLagrangian<dim>::states(const DistributedVector &v) const
+std::vector<ContactDofState<dim>> AugmentedLagrangian<dim>::states(const DistributedVector &v) const
 {
-  std::vector<MomentState<dim>> result(lambda.size());
+  std::vector<ContactDofState<dim>> result(lambda.size());
   for (unsigned int k = 0; k < lambda.size(); ++k)
   {
     if (!(weights[k] > 0))
@@ -111,7 +111,7 @@ double AugmentedLagrangian<dim>::work_of_contact(const DistributedVector &v,
   for (unsigned int k = 0; k < lambda.size(); ++k)
     if (const double G = weights[k]; G > 0)
     {
-      const ContactVector<dim> m = space.moment(step, k);
+      const ContactVector<dim> m = space.contact_value(step, k);
       sum += G * space.contact[k].projected(argument(v, k) + length * stiffness(k) / G * m) * m;
     }
   return Utilities::MPI::sum(sum, space.communicator());

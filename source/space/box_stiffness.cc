@@ -15,21 +15,21 @@ bool any(const std::vector<bool> &moment_components)
 }
 
 template <int dim>
-FullMatrix<double> basis_of_moments(const MomentSpace<dim> &space,
-                                    const typename MomentSpace<dim>::Cell &cell)
+FullMatrix<double> basis_of_moments(const PrimalSpace<dim> &space,
+                                    const typename PrimalSpace<dim>::Cell &cell)
 {
   const BoxTables<dim> &tables = space.tables;
   if (!space.scene.geometry.has_mesh())
     return space.tables.basis_of_moments(space.moment_components(cell));
   FullMatrix<double> T = IdentityMatrix(tables.fe.dofs_per_cell);
-  const auto add = [&](const MomentFace<dim> &face)
+  const auto add = [&](const ContactDofFace<dim> &face)
   {
-    const FaceMoments &moments = space.moments_on(face);
-    const unsigned int n = tables.n_moments();
+    const FaceContactDofs &contact_dofs = space.contact_dofs_on(face);
+    const unsigned int n = tables.n_contact_dofs();
     const auto number = [&](const auto &shapes, const unsigned int i, const unsigned int c)
     { return tables.numbers[shapes[face.face][i]][c]; };
-    FullMatrix<double> rim_to_inner(n, moments.W.n());
-    moments.M_inverse.mmult(rim_to_inner, moments.W);
+    FullMatrix<double> rim_to_inner(n, contact_dofs.W.n());
+    contact_dofs.M_inverse.mmult(rim_to_inner, contact_dofs.W);
     for (const unsigned int c : face.components())
       for (unsigned int r = 0; r < n; ++r)
       {
@@ -37,13 +37,14 @@ FullMatrix<double> basis_of_moments(const MomentSpace<dim> &space,
         T(row, row) = 0;
         for (unsigned int k = 0; k < n; ++k)
           for (const unsigned int own : face.components())
-            T(row, number(tables.inner, k, own)) = moments.M_inverse(r, k) * face.direction(own)[c];
-        for (unsigned int j = 0; j < moments.W.n(); ++j)
+            T(row, number(tables.inner, k, own)) =
+                contact_dofs.M_inverse(r, k) * face.direction(own)[c];
+        for (unsigned int j = 0; j < contact_dofs.W.n(); ++j)
           T(row, number(tables.rim, j, c)) = -rim_to_inner(r, j);
       }
   };
   for (const unsigned int face : cell->face_indices())
-    if (const MomentFace<dim> *const own = space.moment_face(cell, face))
+    if (const ContactDofFace<dim> *const own = space.moment_face(cell, face))
       add(*own);
   return T;
 }
@@ -61,7 +62,7 @@ FullMatrix<double> in_basis(const FullMatrix<double> &K, const FullMatrix<double
 } // namespace
 
 template <int dim>
-BoxStiffness<dim>::BoxStiffness(const MomentSpace<dim> &space)
+BoxStiffness<dim>::BoxStiffness(const PrimalSpace<dim> &space)
     : space(space), none(dim * GeometryInfo<dim>::faces_per_cell, false)
 {
 }
@@ -80,7 +81,7 @@ const FullMatrix<double> &BoxStiffness<dim>::of_box(const Cell &cell,
       matrices.try_emplace({size_class(cell), cell->material_id(), components});
   if (is_new)
   {
-    entry->second = space.tables.stiffness(law(cell), MomentSpace<dim>::extent(cell));
+    entry->second = space.tables.stiffness(law(cell), PrimalSpace<dim>::extent(cell));
     if (any(components))
       entry->second = in_basis(entry->second, basis_of_moments(space, cell));
   }
@@ -162,7 +163,7 @@ unsigned int BoxStiffness<dim>::size_class(const Cell &cell) const
   const auto &cuts = space.scene.geometry.cuts;
   if (std::all_of(cuts.begin(), cuts.end(), [](const auto &lines) { return lines.empty(); }))
     return cell->level();
-  const Tensor<1, dim> size = MomentSpace<dim>::extent(cell);
+  const Tensor<1, dim> size = PrimalSpace<dim>::extent(cell);
   const auto known = std::find_if(sizes.begin(), sizes.end(),
                                   [&](const Tensor<1, dim> &other)
                                   {
@@ -179,8 +180,8 @@ unsigned int BoxStiffness<dim>::size_class(const Cell &cell) const
   return known - sizes.begin();
 }
 
-template FullMatrix<double> basis_of_moments(const MomentSpace<2> &, const MomentSpace<2>::Cell &);
-template FullMatrix<double> basis_of_moments(const MomentSpace<3> &, const MomentSpace<3>::Cell &);
+template FullMatrix<double> basis_of_moments(const PrimalSpace<2> &, const PrimalSpace<2>::Cell &);
+template FullMatrix<double> basis_of_moments(const PrimalSpace<3> &, const PrimalSpace<3>::Cell &);
 template class BoxStiffness<2>;
 template class BoxStiffness<3>;
 } // namespace hpvi

@@ -104,7 +104,7 @@ BoxTables<dim>::BoxTables(const unsigned int degree)
     for (unsigned int i = 0; i + 1 < degree; ++i) // along the first axis
       gauss.push_back(moment_points.back().points[i][0]);
     number_faces();
-    moments = make_moments(0, [](const Point<dim> &) { return 1.; });
+    contact_dofs = make_contact_dofs(0, [](const Point<dim> &) { return 1.; });
   }
 }
 
@@ -141,13 +141,13 @@ void BoxTables<dim>::number_faces()
 }
 
 template <int dim>
-FaceMoments
-BoxTables<dim>::make_moments(const unsigned int face,
-                             const std::function<double(const Point<dim> &)> &measure) const
+FaceContactDofs
+BoxTables<dim>::make_contact_dofs(const unsigned int face,
+                                  const std::function<double(const Point<dim> &)> &measure) const
 {
   const unsigned int n = inner[face].size();
   const BoxTable<dim> &table = faces[face];
-  FaceMoments result;
+  FaceContactDofs result;
   for (unsigned int k = 0; k < n; ++k) // psi_k ds has the degree p - 1 in each direction
     result.areas.push_back(moment_points[face].weights[k] * measure(moment_points[face].points[k]));
   result.M.reinit(n, n);
@@ -170,9 +170,9 @@ BoxTables<dim>::make_moments(const unsigned int face,
 }
 
 template <int dim>
-FaceMoments BoxTables<dim>::moments_of(const CellMap<dim> &map, const unsigned int face) const
+FaceContactDofs BoxTables<dim>::moments_of(const CellMap<dim> &map, const unsigned int face) const
 {
-  return make_moments(face, [&](const Point<dim> &x) { return map.face_measure(face, x); });
+  return make_contact_dofs(face, [&](const Point<dim> &x) { return map.face_measure(face, x); });
 }
 
 template <int dim>
@@ -259,20 +259,21 @@ FullMatrix<double> BoxTables<dim>::stiffness(const HookesLaw<dim> &law,
 template <int dim>
 FullMatrix<double> BoxTables<dim>::basis_of_moments(const std::vector<bool> &components) const
 {
-  FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell), rim_to_inner(n_moments(), moments.W.n());
-  moments.M_inverse.mmult(rim_to_inner, moments.W);
+  FullMatrix<double> T = IdentityMatrix(fe.dofs_per_cell),
+                     rim_to_inner(n_contact_dofs(), contact_dofs.W.n());
+  contact_dofs.M_inverse.mmult(rim_to_inner, contact_dofs.W);
   for (const unsigned int face : GeometryInfo<dim>::face_indices())
     for (unsigned int c = 0; c < dim; ++c)
     {
       if (!components[dim * face + c])
         continue;
       const auto number = [&](const unsigned int shape) { return numbers[shape][c]; };
-      for (unsigned int r = 0; r < n_moments(); ++r)
+      for (unsigned int r = 0; r < n_contact_dofs(); ++r)
       {
         const unsigned int row = number(inner[face][r]);
-        for (unsigned int k = 0; k < n_moments(); ++k)
-          T(row, number(inner[face][k])) = moments.M_inverse(r, k);
-        for (unsigned int j = 0; j < moments.W.n(); ++j)
+        for (unsigned int k = 0; k < n_contact_dofs(); ++k)
+          T(row, number(inner[face][k])) = contact_dofs.M_inverse(r, k);
+        for (unsigned int j = 0; j < contact_dofs.W.n(); ++j)
           T(row, number(rim[face][j])) = -rim_to_inner(r, j);
       }
     }

@@ -19,7 +19,7 @@ namespace
 using Entries = std::vector<std::pair<std::pair<unsigned int, unsigned int>, double>>;
 
 /** Of the upper triangle, from the cells of this process. */
-Entries own_entries(const MomentSpace<3> &space)
+Entries own_entries(const PrimalSpace<3> &space)
 {
   DynamicSparsityPattern dynamic(space.dof_handler.n_dofs());
   DoFTools::make_sparsity_pattern(space.dof_handler, dynamic, space.constraints, false);
@@ -77,7 +77,7 @@ std::size_t CoarseSolver::entry(const unsigned int row, const unsigned int colum
 
 void CoarseSolver::factor()
 {
-  const MomentSpace<3> &space = level.space;
+  const PrimalSpace<3> &space = level.space;
   std::vector<unsigned int> held;
   std::vector<std::pair<std::pair<unsigned int, unsigned int>, double>> added;
   for (unsigned int k = 0; k < level.states.size(); ++k)

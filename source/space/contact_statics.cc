@@ -182,7 +182,7 @@ std::vector<ContactSpot> gathered(const std::vector<ContactSpot> &own, MPI_Comm 
 }
 
 /** In the unknowns of this process. */
-std::vector<DistributedVector> steps_along(const MomentSpace<3> &space,
+std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
                                            const std::vector<SpaceMotion> &motions)
 {
   const std::vector<double> basis = rigid_motions(space);
@@ -210,7 +210,7 @@ std::string remedy(const Scene<3> &scene, const bool slides)
 }
 } // namespace
 
-ContactStatics::ContactStatics(const MomentSpace<3> &space, const DistributedVector &f)
+ContactStatics::ContactStatics(const PrimalSpace<3> &space, const DistributedVector &f)
     : space(space), motions(free_motions_in_space(space.scene)), steps(steps_along(space, motions))
 {
   for (unsigned int j = 0; j < motions.size(); ++j)
@@ -226,7 +226,7 @@ ContactStatics::ContactStatics(const MomentSpace<3> &space, const DistributedVec
   together(space.communicator(), // what limits friction is a function
            [&]()
            {
-             for (const MomentFace<3> &face : space.faces)
+             for (const ContactDofFace<3> &face : space.faces)
              {
                const auto spots = spots_of(face), corners = ends_of(face);
                own.insert(own.end(), spots.begin(), spots.end());
@@ -237,22 +237,22 @@ ContactStatics::ContactStatics(const MomentSpace<3> &space, const DistributedVec
   ends = gathered(own_ends, space.communicator());
 }
 
-std::vector<ContactSpot> ContactStatics::spots_of(const MomentFace<3> &face) const
+std::vector<ContactSpot> ContactStatics::spots_of(const ContactDofFace<3> &face) const
 {
   const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
   std::vector<ContactSpot> result;
-  for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+  for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
   {
-    const ContactMoment<3> &moment = space.contact[face.first() + k];
-    result.push_back({moment.centroid, face.axes.normal,
-                      face.has_friction() ? moment.limit : FrictionLimit(), moment.area,
+    const ContactDof<3> &contact_dof = space.contact[face.first() + k];
+    result.push_back({contact_dof.centroid, face.axes.normal,
+                      face.has_friction() ? contact_dof.limit : FrictionLimit(), contact_dof.area,
                       face.has_pressure(), face.has_pressure() && !boundary.is_unilateral()});
   }
   return result;
 }
 
 /** Friction that has a largest value is counted where the mesh has it. */
-std::vector<ContactSpot> ContactStatics::ends_of(const MomentFace<3> &face) const
+std::vector<ContactSpot> ContactStatics::ends_of(const ContactDofFace<3> &face) const
 {
   std::vector<ContactSpot> result;
   const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
@@ -332,7 +332,7 @@ std::optional<ContactStatics::Missing> ContactStatics::missing() const
                  "no equilibrium on this mesh, whose pressures act inside of its faces: " +
                      why(on_mesh, *separation) +
                      " there; raise Geometry/Subdivisions or move the loads"};
-  for (const MomentFace<3> &face : space.faces)
+  for (const ContactDofFace<3> &face : space.faces)
   {
     const std::vector<ContactSpot> corners = ends_of(face);
     const StaticAdmissibility here(corners, motions);
@@ -356,9 +356,9 @@ double ContactStatics::imbalance(const std::vector<ContactVector<3>> &lambda,
     std::vector<double> own{0., 0.}, sums(2);
     for (unsigned int k = 0; k < lambda.size(); ++k)
     {
-      const ContactMoment<3> &moment = space.contact[k];
-      const double part =
-          moment.area * moment.bound_by(lambda) * (lambda[k] * space.moment(steps[j], k));
+      const ContactDof<3> &contact_dof = space.contact[k];
+      const double part = contact_dof.area * contact_dof.bound_by(lambda) *
+                          (lambda[k] * space.contact_value(steps[j], k));
       own[0] += part;
       own[1] += std::abs(part);
     }

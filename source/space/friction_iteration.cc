@@ -48,7 +48,8 @@ NewtonSettings part_of(const NewtonSettings &settings, const NewtonReport &now)
 } // namespace
 
 template <int dim>
-FrictionIteration<dim>::FrictionIteration(const MomentSpace<dim> &space, MomentNewton<dim> &newton)
+FrictionIteration<dim>::FrictionIteration(const PrimalSpace<dim> &space,
+                                          SemismoothNewton<dim> &newton)
     : space(space), newton(newton)
 {
   for (unsigned int k = 0; k < space.contact.size(); ++k)
@@ -79,7 +80,7 @@ FrictionIteration<dim>::pressures(const std::vector<ContactVector<dim>> &lambda)
 }
 
 /**
- * Gives MomentNewton the limits of the pressures @p x. What sticks keeps its traction, what slips slips on, and where
+ * Gives SemismoothNewton the limits of the pressures @p x. What sticks keeps its traction, what slips slips on, and where
  * there was no friction it acts against the slip.
  */
 template <int dim>
@@ -89,18 +90,19 @@ void FrictionIteration<dim>::take_limits(const Vector<double> &x, const Distribu
   for (unsigned int i = 0; i < frictions.size(); ++i)
   {
     const unsigned int k = frictions[i];
-    const ContactMoment<dim> &moment = space.contact[k];
+    const ContactDof<dim> &contact_dof = space.contact[k];
     const double old = std::exchange(
-        weights[k], moment.area * moment.limit.limit(x[first + i] / std::sqrt(moment.area)));
+        weights[k],
+        contact_dof.area * contact_dof.limit.limit(x[first + i] / std::sqrt(contact_dof.area)));
     if (lambda.empty())
       continue;
-    const ContactVector<dim> slip = space.moment(v, k) - moment.gap;
+    const ContactVector<dim> slip = space.contact_value(v, k) - contact_dof.gap;
     if (weights[k] == 0)
       lambda[k] = {};
     else if (old == 0)
       lambda[k] = slip / std::max(slip.norm(), std::numeric_limits<double>::min());
     else if (lambda[k].norm() < 1 - 1e-12)
-      lambda[k] = moment.projected(old / weights[k] * lambda[k]);
+      lambda[k] = contact_dof.projected(old / weights[k] * lambda[k]);
   }
   newton.take_weights(weights);
 }

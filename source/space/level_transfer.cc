@@ -15,12 +15,12 @@ using namespace dealii;
 namespace
 {
 using Dof = types::global_dof_index;
-using Cell = typename MomentSpace<3>::Cell;
+using Cell = typename PrimalSpace<3>::Cell;
 using AnyCell = typename Triangulation<3>::cell_iterator;
 constexpr unsigned int same_cell = GeometryInfo<3>::max_children_per_cell;
 
-/** Of the first component at each node; the others follow, see MomentSpace. */
-std::vector<Dof> bases_of(const MomentSpace<3> &space, const AnyCell &cell)
+/** Of the first component at each node; the others follow, see PrimalSpace. */
+std::vector<Dof> bases_of(const PrimalSpace<3> &space, const AnyCell &cell)
 {
   std::vector<Dof> dofs(space.tables.fe.dofs_per_cell), result(space.tables.n_shapes);
   Cell(*cell, &space.dof_handler)->get_dof_indices(dofs);
@@ -39,7 +39,7 @@ Place place_of(const CellId &id)
 }
 
 /** Processes that have cells, by the place of their first one. */
-std::map<Place, unsigned int> owners_of(const MomentSpace<3>::Mesh &mesh)
+std::map<Place, unsigned int> owners_of(const PrimalSpace<3>::Mesh &mesh)
 {
   std::vector<Place> first;
   for (const auto &cell : mesh.active_cell_iterators())
@@ -55,7 +55,7 @@ std::map<Place, unsigned int> owners_of(const MomentSpace<3>::Mesh &mesh)
 }
 
 /** The active cell that is @p id or its parent, or where another process knows more, an ancestor. */
-AnyCell cell_at(const MomentSpace<3>::Mesh &mesh, const CellId &id)
+AnyCell cell_at(const PrimalSpace<3>::Mesh &mesh, const CellId &id)
 {
   AnyCell cell = mesh.create_cell_iterator(CellId(id.get_coarse_cell_id(), {}));
   for (const std::uint8_t child : id.get_child_indices())
@@ -89,7 +89,7 @@ LevelTransfer::LevelTransfer(const MultigridLevel<float> &coarse, const Multigri
   Assembly assembly;
   assembly.is_taken.resize(fine.space.owned.n_elements());
   const auto &coarse_mesh =
-      dynamic_cast<const MomentSpace<3>::Mesh &>(coarse.space.dof_handler.get_triangulation());
+      dynamic_cast<const PrimalSpace<3>::Mesh &>(coarse.space.dof_handler.get_triangulation());
   const std::function<void(const AnyCell &, const AnyCell &)> visit =
       [&](const AnyCell &above, const AnyCell &below)
   {
@@ -207,7 +207,7 @@ void LevelTransfer::add_piece(Assembly &assembly, const Cell &cell, const unsign
   add_links(cell, child, bases);
 }
 
-/** Fine moments lie in squares of the coarse face, (p-1)^2 of them, each of which has one coarse moment. */
+/** Fine contact dofs lie in squares of the coarse face, (p-1)^2 of them, each of which has one coarse contact dof. */
 void LevelTransfer::add_links(const Cell &cell, const unsigned int child,
                               const std::vector<Dof> &bases)
 {
@@ -215,12 +215,12 @@ void LevelTransfer::add_links(const Cell &cell, const unsigned int child,
   const unsigned int n = tables.degree - 1;
   for (unsigned int number = 0; cell->at_boundary() && number < 6; ++number)
   {
-    const MomentFace<3> *const face =
+    const ContactDofFace<3> *const face =
         cell->at_boundary(number) ? coarse.space.moment_face(cell, number) : nullptr;
     if (!face || (child != same_cell && ((child >> (number / 2)) & 1) != number % 2))
       continue;
     const auto axes = tangents<3>(number);
-    for (unsigned int k = 0; k < tables.n_moments(); ++k)
+    for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
     {
       unsigned int own = 0;
       for (unsigned int s = 2; s-- > 0;)
@@ -349,10 +349,10 @@ void LevelTransfer::restrict_to(Vector &coarse_r, Vector &fine_r) const
   coarse.mask(coarse_r);
 }
 
-std::vector<MomentState<3>> LevelTransfer::coarse_states() const
+std::vector<ContactDofState<3>> LevelTransfer::coarse_states() const
 {
-  std::vector<MomentState<3>> result(coarse.space.contact.size());
-  for (MomentState<3> &state : result)
+  std::vector<ContactDofState<3>> result(coarse.space.contact.size());
+  for (ContactDofState<3> &state : result)
     state.is_held = true;
   const auto tell = [this](const auto &number)
   {
@@ -362,17 +362,17 @@ std::vector<MomentState<3>> LevelTransfer::coarse_states() const
         buffer.local_element(fine.space.contact[k].unknowns[s]) = number(fine.states[k], s);
     buffer.update_ghost_values();
   };
-  const auto slips = [](const MomentState<3> &state) { return state.is_held ? 0. : 1.; };
-  tell([&](const MomentState<3> &state, unsigned int) { return 1 - slips(state); });
+  const auto slips = [](const ContactDofState<3> &state) { return state.is_held ? 0. : 1.; };
+  tell([&](const ContactDofState<3> &state, unsigned int) { return 1 - slips(state); });
   for (const Link &link : links)
     result[link.coarse].is_held =
         result[link.coarse].is_held && buffer.local_element(link.fine[0]) > 0.5;
-  tell([&](const MomentState<3> &state, const unsigned int s)
+  tell([&](const ContactDofState<3> &state, const unsigned int s)
        { return slips(state) * state.stiffness[s][s]; });
   for (const Link &link : links)
     for (unsigned int s = 0; s < 2; ++s)
       result[link.coarse].stiffness[s][s] += buffer.local_element(link.fine[s]);
-  tell([&](const MomentState<3> &state, unsigned int)
+  tell([&](const ContactDofState<3> &state, unsigned int)
        { return slips(state) * state.stiffness[0][1]; });
   for (const Link &link : links)
     result[link.coarse].stiffness[0][1] += buffer.local_element(link.fine[0]);

@@ -53,7 +53,7 @@ double work_on(const CellMap<dim> &map, const Load<dim> &load, const ShapeTable<
 } // namespace
 
 template <int dim>
-double load_work(const Scene<dim> &scene, const MomentSpace<dim> &space, const DistributedVector &u,
+double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const DistributedVector &u,
                  const unsigned int n_points)
 {
   const std::vector<ShapeTable<dim>> tables = tables_of<dim>(space.tables.degree, n_points);
@@ -85,8 +85,8 @@ double load_work(const Scene<dim> &scene, const MomentSpace<dim> &space, const D
       });
 }
 
-template double load_work(const Scene<2> &, const MomentSpace<2> &, const DistributedVector &,
+template double load_work(const Scene<2> &, const PrimalSpace<2> &, const DistributedVector &,
                           unsigned int);
-template double load_work(const Scene<3> &, const MomentSpace<3> &, const DistributedVector &,
+template double load_work(const Scene<3> &, const PrimalSpace<3> &, const DistributedVector &,
                           unsigned int);
 } // namespace hpvi

@@ -16,7 +16,7 @@ constexpr double smoothing_range =
 constexpr types::global_dof_index largest_coarse_mesh = 20000; ///< unknowns
 } // namespace
 
-bool Multigrid::is_for(const MomentSpace<3> &space)
+bool Multigrid::is_for(const PrimalSpace<3> &space)
 {
   const double per_cell = 3 * std::pow(space.tables.degree, 3);
   const auto &mesh = space.dof_handler.get_triangulation();
@@ -24,7 +24,7 @@ bool Multigrid::is_for(const MomentSpace<3> &space)
          mesh.n_global_coarse_cells() * per_cell < largest_coarse_mesh;
 }
 
-Multigrid::Multigrid(const MomentSpace<3> &space) : finest(space)
+Multigrid::Multigrid(const PrimalSpace<3> &space) : finest(space)
 {
   const auto meshes = MGTransferGlobalCoarseningTools::create_geometric_coarsening_sequence(
       space.dof_handler.get_triangulation());
@@ -34,8 +34,8 @@ Multigrid::Multigrid(const MomentSpace<3> &space) : finest(space)
     Level &level = levels[l];
     level.mesh = meshes[l];
     if (l + 1 < levels.size())
-      level.own_space = std::make_unique<MomentSpace<3>>(
-          space.scene, dynamic_cast<const MomentSpace<3>::Mesh &>(*meshes[l]), space.tables);
+      level.own_space = std::make_unique<PrimalSpace<3>>(
+          space.scene, dynamic_cast<const PrimalSpace<3>::Mesh &>(*meshes[l]), space.tables);
     level.matrix =
         std::make_unique<MultigridLevel<float>>(level.own_space ? *level.own_space : space);
     for (Vector *const v : {&level.x, &level.b, &level.r})
@@ -62,7 +62,7 @@ void Multigrid::prepare(Level &level)
   level.smoother->estimate_eigenvalues(level.b);
 }
 
-void Multigrid::linearise(const std::vector<MomentState<3>> &states)
+void Multigrid::linearise(const std::vector<ContactDofState<3>> &states)
 {
   finest.linearise(states);
   for (unsigned int l = levels.size(); l-- > 0;)

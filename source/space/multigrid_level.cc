@@ -29,14 +29,14 @@ std::vector<IsotropicStiffness> stiffness_of_materials(const Scene<3> &scene)
 } // namespace
 
 template <typename Number>
-MultigridLevel<Number>::MultigridLevel(const MomentSpace<3> &space)
+MultigridLevel<Number>::MultigridLevel(const PrimalSpace<3> &space)
     : space(space), states(space.contact.size())
 {
   constraints.copy_from(space.constraints);
   cells = make_cell_operator<Number>(space.dof_handler, constraints,
                                      stiffness_of_materials(space.scene));
   reinit(scratch);
-  moments = std::make_unique<MomentTransform<Number>>(space, scratch);
+  contact_dofs = std::make_unique<ContactDofTransform<Number>>(space, scratch);
   for (const unsigned int i : cells->constrained())
     if (i < space.owned.n_elements())
       constrained.push_back(i);
@@ -66,14 +66,14 @@ void MultigridLevel<Number>::find_diagonal()
           std::none_of(dofs.begin(), dofs.end(),
                        [this](const auto dof) { return space.constraints.is_constrained(dof); });
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        MomentTransform<Number>::resolve(space, inverse_diagonal, dofs[i],
-                                         [&](const unsigned int local, const double weight)
-                                         {
-                                           if (is_free)
-                                             inverse_diagonal.local_element(local) += K(i, i);
-                                           else
-                                             shares[local].emplace_back(i, weight);
-                                         });
+        ContactDofTransform<Number>::resolve(space, inverse_diagonal, dofs[i],
+                                             [&](const unsigned int local, const double weight)
+                                             {
+                                               if (is_free)
+                                                 inverse_diagonal.local_element(local) += K(i, i);
+                                               else
+                                                 shares[local].emplace_back(i, weight);
+                                             });
       for (const auto &[local, nodes] : shares)
       {
         double sum = 0;
@@ -91,17 +91,17 @@ void MultigridLevel<Number>::find_diagonal()
   find_blocks(stiffness);
 }
 
-/** Moments belong to one cell. */
+/** Contact dofs belong to one cell. */
 template <typename Number>
 void MultigridLevel<Number>::find_blocks(const BoxStiffness<3> &stiffness)
 {
   blocks.resize(space.contact.size());
-  for (const MomentFace<3> &face : space.faces)
+  for (const ContactDofFace<3> &face : space.faces)
   {
     const FullMatrix<double> &K = stiffness(face.cell);
     const auto number = [&](const unsigned int k, const unsigned int axis)
     { return space.tables.numbers[space.tables.inner[face.face][k]][axis]; };
-    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
     {
       for (unsigned int s = 0; face.has_friction() && s < 2; ++s)
         for (unsigned int t = 0; t <= s; ++t)
@@ -117,14 +117,14 @@ template <typename Number>
 void MultigridLevel<Number>::multiply(Vector &y, const Vector &x) const
 {
   Vector &nodal = const_cast<Vector &>(x); // as it was when this returns
-  moments->to_nodes(nodal, &kept);
+  contact_dofs->to_nodes(nodal, &kept);
   cells->multiply(y, nodal);
-  moments->restore(nodal, kept);
-  moments->to_nodes_transposed(y);
+  contact_dofs->restore(nodal, kept);
+  contact_dofs->to_nodes_transposed(y);
 }
 
 template <typename Number>
-void MultigridLevel<Number>::linearise(const std::vector<MomentState<3>> &new_states)
+void MultigridLevel<Number>::linearise(const std::vector<ContactDofState<3>> &new_states)
 {
   states = new_states;
 }
@@ -135,11 +135,11 @@ void MultigridLevel<Number>::vmult(Vector &y, const Vector &x) const
   multiply(y, x);
   for (unsigned int k = 0; k < states.size(); ++k)
   {
-    const auto &moment = space.contact[k];
-    for (unsigned int s = 0; !states[k].is_held && s < moment.n_unknowns(); ++s)
-      for (unsigned int t = 0; t < moment.n_unknowns(); ++t)
-        y.local_element(moment.unknowns[s]) +=
-            states[k].stiffness[s][t] * x.local_element(moment.unknowns[t]);
+    const auto &contact_dof = space.contact[k];
+    for (unsigned int s = 0; !states[k].is_held && s < contact_dof.n_unknowns(); ++s)
+      for (unsigned int t = 0; t < contact_dof.n_unknowns(); ++t)
+        y.local_element(contact_dof.unknowns[s]) +=
+            states[k].stiffness[s][t] * x.local_element(contact_dof.unknowns[t]);
   }
   mask(y);
 }
@@ -164,16 +164,16 @@ void MultigridLevel<Number>::precondition(Vector &z, const Vector &r) const
     to[i] = factor[i] * from[i];
   for (unsigned int k = 0; k < states.size(); ++k)
   {
-    const auto &moment = space.contact[k];
+    const auto &contact_dof = space.contact[k];
     if (states[k].is_held || states[k].stiffness.norm() == 0)
       continue;
     const Block inverse = invert(blocks[k] + states[k].stiffness);
-    for (unsigned int s = 0; s < moment.n_unknowns(); ++s)
+    for (unsigned int s = 0; s < contact_dof.n_unknowns(); ++s)
     {
       Number sum = 0;
-      for (unsigned int t = 0; t < moment.n_unknowns(); ++t)
-        sum += inverse[s][t] * from[moment.unknowns[t]];
-      to[moment.unknowns[s]] = sum;
+      for (unsigned int t = 0; t < contact_dof.n_unknowns(); ++t)
+        sum += inverse[s][t] * from[contact_dof.unknowns[t]];
+      to[contact_dof.unknowns[s]] = sum;
     }
   }
   mask(z);

@@ -20,7 +20,7 @@ namespace
 {
 /** `G lambda` at Gauss point @p k of a face, along the axes of the body. */
 template <int dim>
-Tensor<1, dim> force_at(const MomentSpace<dim> &space, const MomentFace<dim> &face,
+Tensor<1, dim> force_at(const PrimalSpace<dim> &space, const ContactDofFace<dim> &face,
                         const unsigned int k, const std::vector<ContactVector<dim>> &lambda)
 {
   Tensor<1, dim> result;
@@ -39,9 +39,9 @@ template <int dim>
 class NodalReactions
 {
 public:
-  using Cell = typename MomentSpace<dim>::Cell;
+  using Cell = typename PrimalSpace<dim>::Cell;
 
-  NodalReactions(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+  NodalReactions(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
                  const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
   NodalForces<dim> forces() const;
 
@@ -50,7 +50,7 @@ private:
   void find_contact_forces(const std::vector<ContactVector<dim>> &lambda);
   void carry_to_masters();
 
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   DistributedVector loads, reactions;
   struct Node
   {
@@ -64,7 +64,7 @@ private:
 };
 
 template <int dim>
-NodalReactions<dim>::NodalReactions(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+NodalReactions<dim>::NodalReactions(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
                                     const DistributedVector &u,
                                     const std::vector<ContactVector<dim>> &lambda)
     : space(space), nodes(space.owned.n_elements())
@@ -85,7 +85,7 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
   const BoxTables<dim> &tables = space.tables;
   DistributedVector sum = space.ghosted_vector();
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const MomentFace<dim> &face : space.faces)
+  for (const ContactDofFace<dim> &face : space.faces)
   {
     face.cell->get_dof_indices(dofs);
     const CellMap<dim> map = map_of<dim>(face.cell);
@@ -94,7 +94,7 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
       for (unsigned int j = 0; j < shapes.size(); ++j)
       {
         Tensor<1, dim> force;
-        for (unsigned int k = 0; k < tables.n_moments(); ++k)
+        for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
           force -= moments(k, j) * force_at(space, face, k, lambda);
         for (const unsigned int axis : face.components())
           sum(dofs[tables.numbers[shapes[j]][axis]]) += force[axis];
@@ -103,8 +103,8 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
                                   map.point(tables.fe.unit_support_point(node))});
       }
     };
-    add(space.moments_on(face).M, tables.inner[face.face]);
-    add(space.moments_on(face).W, tables.rim[face.face]);
+    add(space.contact_dofs_on(face).M, tables.inner[face.face]);
+    add(space.contact_dofs_on(face).W, tables.rim[face.face]);
   }
   sum.compress(VectorOperation::add);
   reactions -= sum;
@@ -162,7 +162,7 @@ void NodalReactions<dim>::find_nodes()
 
 /** By the rule of the path, face by face. */
 template <int dim>
-std::vector<typename NodalForces<dim>::Traction> tractions(const MomentSpace<dim> &space)
+std::vector<typename NodalForces<dim>::Traction> tractions(const PrimalSpace<dim> &space)
 {
   const QGauss<dim - 1> rule(space.tables.fe.degree + 1);
   const Point<dim> centre = space.scene.geometry.centre();
@@ -212,17 +212,17 @@ NodalForces<dim> NodalReactions<dim>::forces() const
 } // namespace
 
 template <int dim>
-NodalForces<dim> nodal_forces(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+NodalForces<dim> nodal_forces(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
                               const DistributedVector &u,
                               const std::vector<ContactVector<dim>> &lambda)
 {
   return NodalReactions<dim>(space, system, u, lambda).forces();
 }
 
-template NodalForces<2> nodal_forces(const MomentSpace<2> &, const PrimalSystem<2> &,
+template NodalForces<2> nodal_forces(const PrimalSpace<2> &, const PrimalSystem<2> &,
                                      const DistributedVector &,
                                      const std::vector<ContactVector<2>> &);
-template NodalForces<3> nodal_forces(const MomentSpace<3> &, const PrimalSystem<3> &,
+template NodalForces<3> nodal_forces(const PrimalSpace<3> &, const PrimalSystem<3> &,
                                      const DistributedVector &,
                                      const std::vector<ContactVector<3>> &);
 } // namespace hpvi

@@ -11,7 +11,7 @@ namespace hpvi
 using namespace dealii;
 
 template <int dim>
-PastState<dim> end_state(const MomentSpace<dim> &space, const DistributedVector &u,
+PastState<dim> end_state(const PrimalSpace<dim> &space, const DistributedVector &u,
                          const std::vector<ContactVector<dim>> &lambda,
                          const NodalForces<dim> &forces)
 {
@@ -45,17 +45,17 @@ double work_of_supports(const PastState<dim> &state, const Scene<dim> *const las
   return sum;
 }
 
-/** By how much the gaps of pressures grow, by moment. */
+/** By how much the gaps of pressures grow, by contact dof. */
 template <int dim>
-std::vector<double> growth_of_gaps(const PastState<dim> *const last, const MomentSpace<dim> &space)
+std::vector<double> growth_of_gaps(const PastState<dim> *const last, const PrimalSpace<dim> &space)
 {
   std::vector<double> result(space.contact.size(), 0.);
   if (space.n_pressures == 0)
     return result;
-  std::vector<ContactMoment<dim>> before;
+  std::vector<ContactDof<dim>> before;
   if (last)
-    before = MomentSpace<dim>(*last->scene,
-                              dynamic_cast<const typename MomentSpace<dim>::Mesh &>(
+    before = PrimalSpace<dim>(*last->scene,
+                              dynamic_cast<const typename PrimalSpace<dim>::Mesh &>(
                                   space.dof_handler.get_triangulation()),
                               space.tables)
                  .contact;
@@ -82,7 +82,7 @@ Acting acting(const double loads, const double inside, const std::vector<double>
 
 template <int dim>
 Work work(const PastState<dim> *const last, const PastState<dim> &next,
-          const MomentSpace<dim> &space, const PrimalSystem<dim> &system)
+          const PrimalSpace<dim> &space, const PrimalSystem<dim> &system)
 {
   DistributedVector du = next.u;
   if (last)
@@ -95,7 +95,7 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
     du.copy_locally_owned_data_from(own);
   }
   du.update_ghost_values(); // copies have none
-  const DistributedVector moments = space.moments(du);
+  const DistributedVector contact_dofs = space.in_contact_dofs(du);
   const std::vector<double> growth = growth_of_gaps(last, space);
   const auto in_state = [&](const PastState<dim> &state)
   {
@@ -108,7 +108,7 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
     for (unsigned int k = 0; k < space.contact.size(); ++k)
     {
       const ContactVector<dim> force = space.contact[k].area * state.traction[k];
-      sums[space.contact[k].is_friction() ? 1 : 2] += force * space.moment(moments, k);
+      sums[space.contact[k].is_friction() ? 1 : 2] += force * space.contact_value(contact_dofs, k);
       sums[3] += force[0] * growth[k];
     }
     Utilities::MPI::sum(sums, space.communicator(), all);
@@ -124,12 +124,12 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
           -0.5 * before.elsewhere, 0.5 * (before.friction + after.friction)};
 }
 
-template PastState<2> end_state(const MomentSpace<2> &, const DistributedVector &,
+template PastState<2> end_state(const PrimalSpace<2> &, const DistributedVector &,
                                 const std::vector<ContactVector<2>> &, const NodalForces<2> &);
-template PastState<3> end_state(const MomentSpace<3> &, const DistributedVector &,
+template PastState<3> end_state(const PrimalSpace<3> &, const DistributedVector &,
                                 const std::vector<ContactVector<3>> &, const NodalForces<3> &);
-template Work work(const PastState<2> *, const PastState<2> &, const MomentSpace<2> &,
+template Work work(const PastState<2> *, const PastState<2> &, const PrimalSpace<2> &,
                    const PrimalSystem<2> &);
-template Work work(const PastState<3> *, const PastState<3> &, const MomentSpace<3> &,
+template Work work(const PastState<3> *, const PastState<3> &, const PrimalSpace<3> &,
                    const PrimalSystem<3> &);
 } // namespace hpvi

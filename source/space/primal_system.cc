@@ -46,7 +46,7 @@ double product(const CellField<dim> &a, const CellField<dim> &b)
 } // namespace
 
 template <int dim>
-PrimalSystem<dim>::PrimalSystem(const MomentSpace<dim> &space)
+PrimalSystem<dim>::PrimalSystem(const PrimalSpace<dim> &space)
     : f(space.ghosted_vector()), space(space), stiffness(space)
 {
   together(space.communicator(), [this]() { assemble_loads(); });

@@ -17,8 +17,8 @@ constexpr double balanced = 1e-9;       ///< of forces and moments, in parts of 
 constexpr unsigned int most_steps = 40; ///< proximal steps
 } // namespace
 
-ProximalPoint::ProximalPoint(const MomentSpace<3> &space, PrimalSystem<3> &system,
-                             MomentMatrix<3> &matrix)
+ProximalPoint::ProximalPoint(const PrimalSpace<3> &space, PrimalSystem<3> &system,
+                             NewtonMatrix<3> &matrix)
     : space(space), system(system), loads(system.f), statics(space, loads),
       springs(space.contact.size()), centres(space.contact.size())
 {
@@ -39,8 +39,8 @@ void ProximalPoint::drop_anchors(const DistributedVector &v)
   system.f = loads;
   for (unsigned int k = 0; k < springs.size(); ++k)
   {
-    centres[k] = space.moment(v, k);
-    space.add_moment(system.f, k, springs[k] * centres[k]);
+    centres[k] = space.contact_value(v, k);
+    space.add_contact_value(system.f, k, springs[k] * centres[k]);
   }
 }
 
@@ -50,7 +50,7 @@ double ProximalPoint::regularise(const DistributedVector &v, double &energy) con
   double squares = 0, work = 0;
   for (unsigned int k = 0; k < springs.size(); ++k)
   {
-    const double square = (space.moment(v, k) - centres[k]).norm_square();
+    const double square = (space.contact_value(v, k) - centres[k]).norm_square();
     squares += springs[k] * springs[k] * square;
     work += springs[k] * square;
   }

@@ -25,7 +25,7 @@ Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm
 } // namespace
 
 template <int dim>
-std::vector<double> rigid_motions(const MomentSpace<dim> &space)
+std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
 {
   const unsigned int n = space.owned.n_elements();
   const FESystem<dim> &fe = space.tables.fe;
@@ -47,10 +47,10 @@ std::vector<double> rigid_motions(const MomentSpace<dim> &space)
                 rigid_motion(m, arm / length)[fe.system_to_component_index(i).first];
         }
     }
-  for (const MomentFace<dim> &face : space.faces)
+  for (const ContactDofFace<dim> &face : space.faces)
   {
     face.cell->get_dof_indices(dofs);
-    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
     {
       const Tensor<1, dim> arm = space.contact[face.first() + k].centroid - centre;
       for (const unsigned int c : face.components())
@@ -63,6 +63,6 @@ std::vector<double> rigid_motions(const MomentSpace<dim> &space)
   return result;
 }
 
-template std::vector<double> rigid_motions(const MomentSpace<2> &);
-template std::vector<double> rigid_motions(const MomentSpace<3> &);
+template std::vector<double> rigid_motions(const PrimalSpace<2> &);
+template std::vector<double> rigid_motions(const PrimalSpace<3> &);
 } // namespace hpvi

@@ -56,14 +56,14 @@ std::vector<std::vector<double>> join_cells(const CellNumbers &own, const unsign
 }
 
 template <int dim>
-unsigned int n_cells(const MomentSpace<dim> &space)
+unsigned int n_cells(const PrimalSpace<dim> &space)
 {
   return space.dof_handler.get_triangulation().n_global_active_cells();
 }
 } // namespace
 
 template <int dim>
-StoredValues stored_values(const MomentSpace<dim> &space, const DistributedVector &u,
+StoredValues stored_values(const PrimalSpace<dim> &space, const DistributedVector &u,
                            const std::vector<ContactVector<dim>> &lambda)
 {
   const auto ranks = global_cell_indices(space.dof_handler.get_triangulation());
@@ -87,7 +87,7 @@ StoredValues stored_values(const MomentSpace<dim> &space, const DistributedVecto
 
 template <int dim>
 bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
-                 const MomentSpace<dim> &space, DistributedVector &u,
+                 const PrimalSpace<dim> &space, DistributedVector &u,
                  std::vector<ContactVector<dim>> &lambda)
 {
   const unsigned int n = space.tables.fe.dofs_per_cell;
@@ -118,12 +118,12 @@ bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
   return true;
 }
 
-template StoredValues stored_values(const MomentSpace<2> &, const DistributedVector &,
+template StoredValues stored_values(const PrimalSpace<2> &, const DistributedVector &,
                                     const std::vector<ContactVector<2>> &);
-template StoredValues stored_values(const MomentSpace<3> &, const DistributedVector &,
+template StoredValues stored_values(const PrimalSpace<3> &, const DistributedVector &,
                                     const std::vector<ContactVector<3>> &);
-template bool take_stored(const Vector<double> &, const Vector<double> &, const MomentSpace<2> &,
+template bool take_stored(const Vector<double> &, const Vector<double> &, const PrimalSpace<2> &,
                           DistributedVector &, std::vector<ContactVector<2>> &);
-template bool take_stored(const Vector<double> &, const Vector<double> &, const MomentSpace<3> &,
+template bool take_stored(const Vector<double> &, const Vector<double> &, const PrimalSpace<3> &,
                           DistributedVector &, std::vector<ContactVector<3>> &);
 } // namespace hpvi

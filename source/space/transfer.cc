@@ -9,16 +9,16 @@ namespace hpvi
 using namespace dealii;
 
 template <int dim>
-CellValues values_on(const typename MomentSpace<dim>::Cell &cell, const MomentSpace<dim> &space,
+CellValues values_on(const typename PrimalSpace<dim>::Cell &cell, const PrimalSpace<dim> &space,
                      const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda)
 {
   Vector<double> local(space.tables.fe.dofs_per_cell);
   cell->get_dof_values(u, local);
   CellValues result{{local.begin(), local.end()}, {}};
   for (const unsigned int number : cell->face_indices())
-    if (const MomentFace<dim> *const face = space.moment_face(cell, number))
+    if (const ContactDofFace<dim> *const face = space.moment_face(cell, number))
       for (const unsigned int first : {face->friction, face->pressure})
-        for (unsigned int k = 0; first != none && k < space.tables.n_moments(); ++k)
+        for (unsigned int k = 0; first != none && k < space.tables.n_contact_dofs(); ++k)
           for (unsigned int s = 0; s < space.contact[first].n_unknowns(); ++s)
             result.lambda.push_back(lambda[first + k][s]);
   return result;
@@ -37,15 +37,15 @@ unsigned int child_number(const typename Triangulation<dim>::cell_iterator &cell
   return none;
 }
 
-/** lambda of the parent, a polynomial of degree p-2 on each face, at the moments of a cell. */
+/** lambda of the parent, a polynomial of degree p-2 on each face, at the contact dofs of a cell. */
 template <int dim>
-void take_multiplier(const MomentSpace<dim> &space,
+void take_multiplier(const PrimalSpace<dim> &space,
                      const typename Triangulation<dim>::cell_iterator &cell,
                      const typename Triangulation<dim>::cell_iterator &parent,
                      const std::vector<bool> &parent_components, const std::vector<double> &values,
                      std::vector<ContactVector<dim>> &lambda)
 {
-  const unsigned int n = space.tables.n_moments();
+  const unsigned int n = space.tables.n_contact_dofs();
   const unsigned int child = child_number<dim>(cell, parent);
   unsigned int first = 0; // of the values on a face
   for (const unsigned int number : cell->face_indices())
@@ -55,10 +55,10 @@ void take_multiplier(const MomentSpace<dim> &space,
                          n_components = is_friction ? dim - 1 : 1;
       if (!parent_components[dim * number + axis])
         continue;
-      const typename MomentSpace<dim>::Cell dof_cell(*cell, &space.dof_handler);
+      const typename PrimalSpace<dim>::Cell dof_cell(*cell, &space.dof_handler);
       for (unsigned int k = 0; cell->at_boundary(number) && k < n; ++k)
       {
-        const MomentFace<dim> &face = *space.moment_face(dof_cell, number);
+        const ContactDofFace<dim> &face = *space.moment_face(dof_cell, number);
         const unsigned int own = (is_friction ? face.friction : face.pressure) + k;
         const Point<dim> &own_x = space.tables.moment_points[number].points[k],
                          x = child == none
@@ -76,7 +76,7 @@ void take_multiplier(const MomentSpace<dim> &space,
 
 template <int dim>
 void take_values(const typename Triangulation<dim>::cell_iterator &cell, const CellValues &values,
-                 const MomentSpace<dim> &space, DistributedVector &u,
+                 const PrimalSpace<dim> &space, DistributedVector &u,
                  std::vector<ContactVector<dim>> &lambda)
 {
   const typename DoFHandler<dim>::cell_iterator dof_cell(*cell, &space.dof_handler);
@@ -90,14 +90,14 @@ void take_values(const typename Triangulation<dim>::cell_iterator &cell, const C
 }
 
 template <int dim>
-Transfer<dim>::Transfer(Mesh &mesh, const MomentSpace<dim> &space, const DistributedVector &u,
+Transfer<dim>::Transfer(Mesh &mesh, const PrimalSpace<dim> &space, const DistributedVector &u,
                         const std::vector<ContactVector<dim>> &lambda)
     : mesh(mesh)
 {
   const auto pack = [&space, &u, &lambda](const Cell &cell, const auto)
   {
     const CellValues values =
-        values_on(typename MomentSpace<dim>::Cell(*cell, &space.dof_handler), space, u, lambda);
+        values_on(typename PrimalSpace<dim>::Cell(*cell, &space.dof_handler), space, u, lambda);
     std::vector<double> data = values.u;
     data.insert(data.end(), values.lambda.begin(), values.lambda.end());
     return Utilities::pack(data, false);
@@ -106,7 +106,7 @@ Transfer<dim>::Transfer(Mesh &mesh, const MomentSpace<dim> &space, const Distrib
 }
 
 template <int dim>
-void Transfer<dim>::unpack(const MomentSpace<dim> &space, DistributedVector &u,
+void Transfer<dim>::unpack(const PrimalSpace<dim> &space, DistributedVector &u,
                            std::vector<ContactVector<dim>> &lambda)
 {
   u = space.ghosted_vector();
@@ -123,15 +123,15 @@ void Transfer<dim>::unpack(const MomentSpace<dim> &space, DistributedVector &u,
   u.update_ghost_values();
 }
 
-template CellValues values_on(const typename MomentSpace<2>::Cell &, const MomentSpace<2> &,
+template CellValues values_on(const typename PrimalSpace<2>::Cell &, const PrimalSpace<2> &,
                               const DistributedVector &, const std::vector<ContactVector<2>> &);
-template CellValues values_on(const typename MomentSpace<3>::Cell &, const MomentSpace<3> &,
+template CellValues values_on(const typename PrimalSpace<3>::Cell &, const PrimalSpace<3> &,
                               const DistributedVector &, const std::vector<ContactVector<3>> &);
 template void take_values(const Triangulation<2>::cell_iterator &, const CellValues &,
-                          const MomentSpace<2> &, DistributedVector &,
+                          const PrimalSpace<2> &, DistributedVector &,
                           std::vector<ContactVector<2>> &);
 template void take_values(const Triangulation<3>::cell_iterator &, const CellValues &,
-                          const MomentSpace<3> &, DistributedVector &,
+                          const PrimalSpace<3> &, DistributedVector &,
                           std::vector<ContactVector<3>> &);
 template class Transfer<2>;
 template class Transfer<3>;

@@ -18,8 +18,8 @@ namespace
 {
 /** By how much u misses a prescribed displacement between its nodes on one face. */
 template <int dim>
-double missed_on(const typename MomentSpace<dim>::Cell &cell, const unsigned int face,
-                 const MomentSpace<dim> &space, const DistributedVector &u)
+double missed_on(const typename PrimalSpace<dim>::Cell &cell, const unsigned int face,
+                 const PrimalSpace<dim> &space, const DistributedVector &u)
 {
   const BoundaryCondition<dim> &condition = space.condition(cell, face);
   const QGauss<dim - 1> points(space.tables.degree + 2);
@@ -40,7 +40,7 @@ double missed_on(const typename MomentSpace<dim>::Cell &cell, const unsigned int
 }
 
 template <int dim>
-double missed_displacement(const MomentSpace<dim> &space, const DistributedVector &u)
+double missed_displacement(const PrimalSpace<dim> &space, const DistributedVector &u)
 {
   double largest = 0;
   together(space.communicator(),
@@ -57,7 +57,7 @@ double missed_displacement(const MomentSpace<dim> &space, const DistributedVecto
 } // namespace
 
 template <int dim>
-double upper_energy(const MomentSpace<dim> &space, const DistributedVector &u,
+double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
                     const Energies &energies, const double work)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -70,8 +70,8 @@ double upper_energy(const MomentSpace<dim> &space, const DistributedVector &u,
   return difference > 1e-3 * std::abs(finer) ? none : energies.energy + work - finer + difference;
 }
 
-template double upper_energy(const MomentSpace<2> &, const DistributedVector &, const Energies &,
+template double upper_energy(const PrimalSpace<2> &, const DistributedVector &, const Energies &,
                              double);
-template double upper_energy(const MomentSpace<3> &, const DistributedVector &, const Energies &,
+template double upper_energy(const PrimalSpace<3> &, const DistributedVector &, const Energies &,
                              double);
 } // namespace hpvi

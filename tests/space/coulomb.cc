@@ -183,7 +183,7 @@ TEST(Coulomb, TheLawHoldsAtPoints)
                     EXPECT_LE(size, bound + 1e-12);
                     if (point.mode() == ContactMode::slip)
                     {
-                      // moments slip; the displacement at the point does so nearly
+                      // contact dofs slip; the displacement at the point does so nearly
                       EXPECT_NEAR(size, bound, 1e-8 * bound);
                       EXPECT_LT(point.tangential_traction * point.slip, 0);
                       ++n_slipping;

@@ -12,48 +12,48 @@ namespace
 {
 using namespace space;
 
-/** The unknowns of all moments of contact, one after the other, and what a force on them has to be. */
+/** The unknowns of all contact dofs, one after the other, and what a force on them has to be. */
 struct ContactForces
 {
   std::vector<unsigned int> unknowns;
   std::vector<double> signs, gaps;
 };
 
-ContactForces contact_forces(const MomentSpace<3> &space)
+ContactForces contact_forces(const PrimalSpace<3> &space)
 {
   ContactForces result;
-  for (const ContactMoment<3> &moment : space.contact)
+  for (const ContactDof<3> &contact_dof : space.contact)
   {
-    for (unsigned int s = 0; s < moment.n_unknowns(); ++s)
+    for (unsigned int s = 0; s < contact_dof.n_unknowns(); ++s)
     {
-      result.unknowns.push_back(moment.unknowns[s]);
-      result.signs.push_back(moment.sign);
-      result.gaps.push_back(moment.gap[s]);
+      result.unknowns.push_back(contact_dof.unknowns[s]);
+      result.signs.push_back(contact_dof.sign);
+      result.gaps.push_back(contact_dof.gap[s]);
     }
   }
   return result;
 }
 
 /** F := the nearest forces that the laws allow. */
-void project(const MomentSpace<3> &space, Vector<double> &F)
+void project(const PrimalSpace<3> &space, Vector<double> &F)
 {
   unsigned int i = 0;
-  for (const ContactMoment<3> &moment : space.contact)
+  for (const ContactDof<3> &contact_dof : space.contact)
   {
-    if (moment.is_friction())
+    if (contact_dof.is_friction())
     {
       const double norm = std::hypot(F[i], F[i + 1]);
-      for (unsigned int s = 0; norm > moment.weight && s < 2; ++s)
-        F[i + s] *= moment.weight / norm;
+      for (unsigned int s = 0; norm > contact_dof.weight && s < 2; ++s)
+        F[i + s] *= contact_dof.weight / norm;
     }
     else
       F[i] = std::max(0., F[i]);
-    i += moment.n_unknowns();
+    i += contact_dof.n_unknowns();
   }
 }
 
 /** `1/2 F'SF - d'F` least, by projected gradients with Nesterov's momentum, anew where that leads uphill. */
-Vector<double> minimiser(const MomentSpace<3> &space, const LAPACKFullMatrix<double> &S,
+Vector<double> minimiser(const PrimalSpace<3> &space, const LAPACKFullMatrix<double> &S,
                          const Vector<double> &d)
 {
   const double length = 1. / S.linfty_norm();
@@ -81,10 +81,10 @@ Vector<double> minimiser(const MomentSpace<3> &space, const LAPACKFullMatrix<dou
 }
 
 /**
- * J of the last mesh: with `S = P A^-1 P'`, P picking moments, `max_F -1/2 (f - P'F)' A^-1 (f - P'F) - u_0'F` over
+ * J of the last mesh: with `S = P A^-1 P'`, P picking contact dofs, `max_F -1/2 (f - P'F)' A^-1 (f - P'F) - u_0'F` over
  * frictions in their discs and pressures that are not negative.
  */
-double dual_minimum(const MomentSpace<3> &space)
+double dual_minimum(const PrimalSpace<3> &space)
 {
   PrimalSystem<3> system(space);
   SolverControl control;

@@ -340,7 +340,7 @@ struct Floor
   bool is_graded = false;
 };
 
-/** The arms of moments are centroids, which of faces that are no parallelograms are not the Gauss points. */
+/** The arms of contact dofs are centroids, which of faces that are no parallelograms are not the Gauss points. */
 TEST(Hexahedra, RestOnAnyQuadrilaterals)
 {
   const Map shifted = [](const Point<3> &x)

@@ -210,17 +210,17 @@ TEST(History, SlipIsCountedFromTheLoadStepBefore)
                MPI_COMM_SELF,
                [](const StepReport<3> &step)
                {
-                 const MomentSpace<3> &space = step.primal->space;
-                 const DistributedVector v = space.moments(step.primal->u);
+                 const PrimalSpace<3> &space = step.primal->space;
+                 const DistributedVector v = space.in_contact_dofs(step.primal->u);
                  unsigned int n_moved = 0, n_sticking = 0;
                  for (unsigned int k = 0; k < space.contact.size(); ++k)
                  {
-                   const ContactMoment<3> &moment = space.contact[k];
-                   if (!moment.is_friction())
+                   const ContactDof<3> &contact_dof = space.contact[k];
+                   if (!contact_dof.is_friction())
                      continue;
-                   const double slip = (space.moment(v, k) - moment.gap).norm();
+                   const double slip = (space.contact_value(v, k) - contact_dof.gap).norm();
                    n_sticking += slip < 1e-14;
-                   n_moved += moment.gap.norm() > 1e-4;
+                   n_moved += contact_dof.gap.norm() > 1e-4;
                  }
                  EXPECT_EQ(n_moved > 0, step.load.number > 1);
                  EXPECT_GT(n_sticking, 0u);

@@ -2,8 +2,8 @@
 // Multigrid without a matrix beside the assembled matrix and factorisations.
 #include "runs.h"
 
-#include <hpvi/space/moment_newton.h>
 #include <hpvi/space/multigrid.h>
+#include <hpvi/space/semismooth_newton.h>
 
 #include <deal.II/grid/grid_generator.h>
 
@@ -69,7 +69,7 @@ TEST(Multigrid, KnowsPressuresAndMaterials)
 }
 
 /** Calls @p look with the space of the last mesh, which has hanging nodes. */
-void on_last_mesh(const Scene<3> &scene, const std::function<void(const MomentSpace<3> &)> &look)
+void on_last_mesh(const Scene<3> &scene, const std::function<void(const PrimalSpace<3> &)> &look)
 {
   steps_of<3>(scene,
               [&](const StepReport<3> &step)
@@ -92,12 +92,12 @@ TEST(Multigrid, HasProductsAndBlocksOfTheMatrix)
   std::mt19937 random;
   for (const Scene<3> &scene : {dome(), two_materials()})
     on_last_mesh(scene,
-                 [&](const MomentSpace<3> &space)
+                 [&](const PrimalSpace<3> &space)
                  {
                    EXPECT_TRUE(space.dof_handler.get_triangulation().has_hanging_nodes());
                    PrimalSystem<3> system(space);
-                   MomentMatrix<3> assembled(space, system, LinearMethod::amg);
-                   MomentMatrix<3> free(space, system, LinearMethod::multigrid);
+                   NewtonMatrix<3> assembled(space, system, LinearMethod::amg);
+                   NewtonMatrix<3> free(space, system, LinearMethod::multigrid);
                    DistributedVector x = space.owned_vector(), y = x, z = x;
                    randomise(x, random);
                    space.constraints.set_zero(x);
@@ -117,11 +117,11 @@ TEST(Multigrid, PreconditionsBySymmetricOperators)
 {
   std::mt19937 random;
   on_last_mesh(dome(),
-               [&](const MomentSpace<3> &space)
+               [&](const PrimalSpace<3> &space)
                {
                  Multigrid multigrid(space);
-                 std::vector<MomentState<3>> states(space.contact.size());
-                 for (MomentState<3> &state : states)
+                 std::vector<ContactDofState<3>> states(space.contact.size());
+                 for (ContactDofState<3> &state : states)
                    if (random() % 2)
                      state.is_held = true;
                    else if (random() % 2)
@@ -149,11 +149,11 @@ TEST(Multigrid, StopsWhereTheErrorIsSmall)
 {
   std::mt19937 random;
   on_last_mesh(two_materials(),
-               [&](const MomentSpace<3> &space)
+               [&](const PrimalSpace<3> &space)
                {
                  PrimalSystem<3> system(space);
-                 MomentMatrix<3> matrix(space, system, LinearMethod::multigrid);
-                 matrix.linearise(std::vector<MomentState<3>>(space.contact.size()));
+                 NewtonMatrix<3> matrix(space, system, LinearMethod::multigrid);
+                 matrix.linearise(std::vector<ContactDofState<3>>(space.contact.size()));
                  DistributedVector b = space.owned_vector(), exact = b, v = b, Ae = b;
                  randomise(b, random);
                  space.constraints.set_zero(b);
@@ -188,13 +188,13 @@ TEST(Multigrid, LeavesCoarseMeshesOfManyCellsToTheOther)
 {
   Scene<3> scene = slab({{"Geometry/Subdivisions", "24, 24, 2"}});
   const BoxTables<3> tables(2);
-  MomentSpace<3>::Mesh mesh(MPI_COMM_SELF);
+  PrimalSpace<3>::Mesh mesh(MPI_COMM_SELF);
   GridGenerator::subdivided_hyper_rectangle(mesh, {24, 24, 2}, Point<3>(), Point<3>(4, 4, 2), true);
-  EXPECT_EQ(linear_method(MomentSpace<3>(scene, mesh, tables)), LinearMethod::amg);
+  EXPECT_EQ(linear_method(PrimalSpace<3>(scene, mesh, tables)), LinearMethod::amg);
   const BoxTables<3> high(5);
-  MomentSpace<3>::Mesh small(MPI_COMM_SELF);
+  PrimalSpace<3>::Mesh small(MPI_COMM_SELF);
   GridGenerator::subdivided_hyper_rectangle(small, {1, 1, 1}, Point<3>(), Point<3>(4, 4, 2), true);
-  EXPECT_EQ(linear_method(MomentSpace<3>(scene, small, high)), LinearMethod::amg);
-  EXPECT_EQ(linear_method(MomentSpace<3>(scene, small, tables)), LinearMethod::multigrid);
+  EXPECT_EQ(linear_method(PrimalSpace<3>(scene, small, high)), LinearMethod::amg);
+  EXPECT_EQ(linear_method(PrimalSpace<3>(scene, small, tables)), LinearMethod::multigrid);
 }
 } // namespace

@@ -16,8 +16,8 @@ template <int dim>
 void expect_fallback(const StepReport<dim> &step)
 {
   PrimalSystem<dim> system(step.primal->space);
-  MomentMatrix<dim> matrix(step.primal->space, system);
-  MomentNewton<dim> newton(step.primal->space, system, matrix);
+  NewtonMatrix<dim> matrix(step.primal->space, system);
+  SemismoothNewton<dim> newton(step.primal->space, system, matrix);
   DistributedVector v = step.primal->space.owned_vector();
   std::vector<ContactVector<dim>> lambda;
   NewtonSettings settings;
@@ -136,7 +136,7 @@ TEST(Newton, ForcesAreThoseOfTheReducedPath)
   }
 }
 
-/** A fiftieth of the moments may change its state before multigrid is set up anew, and no more. */
+/** A fiftieth of the contact dofs may change its state before multigrid is set up anew, and no more. */
 TEST(Newton, SetsMultigridUpWhereMoreThanAFiftiethHasChanged)
 {
   const Scene<3> scene = slab({{"Geometry/Subdivisions", "10, 1, 10"},
@@ -147,8 +147,8 @@ TEST(Newton, SetsMultigridUpWhereMoreThanAFiftiethHasChanged)
               {
                 ASSERT_EQ(step.primal->space.n_discs, 100u);
                 PrimalSystem<3> system(step.primal->space);
-                MomentMatrix<3> matrix(step.primal->space, system, LinearMethod::amg);
-                std::vector<MomentState<3>> states(step.primal->space.contact.size());
+                NewtonMatrix<3> matrix(step.primal->space, system, LinearMethod::amg);
+                std::vector<ContactDofState<3>> states(step.primal->space.contact.size());
                 const auto setups = [&](const unsigned int begin, const unsigned int end)
                 {
                   for (unsigned int k = begin; k < end; ++k)

@@ -284,7 +284,7 @@ TEST(Ranks, HangingNodesAreConstrainedAsByDealII)
 {
   const auto compare = [](const StepReport<3> &step)
   {
-    const MomentSpace<3> &space = step.primal->space;
+    const PrimalSpace<3> &space = step.primal->space;
     AffineConstraints<double> ours(space.relevant), theirs(space.relevant);
     for (AffineConstraints<double> *const constraints : {&ours, &theirs})
       DoFTools::make_hanging_node_constraints(space.dof_handler, *constraints);

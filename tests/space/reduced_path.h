@@ -8,7 +8,7 @@
 
 namespace space
 {
-/** In the plane the reduced path has the same moments and pressures. */
+/** In the plane the reduced path has the same contact dofs and pressures. */
 inline void expect_reduced_path(const Scene<2> &scene)
 {
   std::vector<std::vector<ContactMode>> modes;

@@ -89,7 +89,7 @@ double energy_error(const StepReport<dim> &step, const KnownField<dim> &exact)
   const BoxTable<dim> &table = step.primal->space.tables.cell;
   for (const auto &cell : step.primal->space.dof_handler.active_cell_iterators())
   {
-    const auto size = MomentSpace<dim>::extent(cell);
+    const auto size = PrimalSpace<dim>::extent(cell);
     const CellField<dim> field = step.primal->space.field(cell, step.primal->u);
     for (unsigned int q = 0; q < table.points.size(); ++q)
     {

@@ -172,20 +172,21 @@ TEST(Unilateral, TurnedSlabsAgree)
 /** p >= 0, m <= u_0 and p (m - u_0) = 0 at every point, some of which press and some not. */
 void expect_complementarity(const StepReport<3> &step)
 {
-  const DistributedVector v = step.primal->space.moments(step.primal->u);
+  const DistributedVector v = step.primal->space.in_contact_dofs(step.primal->u);
   ASSERT_EQ(step.contact.size(), 1u);
   const std::vector<ContactPoint<3>> &points = step.contact[0].points;
   unsigned int n_open = 0, n_pressing = 0;
   for (unsigned int k = 0; k < step.primal->space.contact.size(); ++k)
   {
-    const ContactMoment<3> &moment = step.primal->space.contact[k];
-    if (moment.is_friction())
+    const ContactDof<3> &contact_dof = step.primal->space.contact[k];
+    if (contact_dof.is_friction())
       continue;
-    const auto point = std::find_if(points.begin(), points.end(),
-                                    [&](const auto &p) { return p.x.distance(moment.x) < 1e-12; });
+    const auto point =
+        std::find_if(points.begin(), points.end(),
+                     [&](const auto &p) { return p.x.distance(contact_dof.x) < 1e-12; });
     ASSERT_NE(point, points.end());
     const double pressure = -point->normal_traction,
-                 distance = moment.gap[0] - step.primal->space.moment(v, k)[0];
+                 distance = contact_dof.gap[0] - step.primal->space.contact_value(v, k)[0];
     EXPECT_GE(pressure, 0);
     EXPECT_GE(distance, -1e-12);
     EXPECT_LE(pressure * distance, 1e-12);
@@ -237,8 +238,8 @@ TEST(Unilateral, AugmentedLagrangianAgrees)
               [](const StepReport<3> &step)
               {
                 PrimalSystem<3> system(step.primal->space);
-                MomentMatrix<3> matrix(step.primal->space, system);
-                MomentNewton<3> newton(step.primal->space, system, matrix);
+                NewtonMatrix<3> matrix(step.primal->space, system);
+                SemismoothNewton<3> newton(step.primal->space, system, matrix);
                 DistributedVector v = step.primal->space.owned_vector();
                 std::vector<ContactVector<3>> lambda;
                 NewtonSettings settings;
@@ -255,10 +256,11 @@ TEST(Unilateral, AugmentedLagrangianAgrees)
 }
 
 /** What degree p - 2 = 1 holds in each direction: a friction of two components, or a pressure. */
-ContactVector<3> bilinear(const ContactMoment<3> &moment)
+ContactVector<3> bilinear(const ContactDof<3> &contact_dof)
 {
-  const double a = moment.x[0] - 0.5 * moment.x[2] + 0.1 * moment.x[0] * moment.x[2];
-  return moment.is_friction() ? ContactVector<3>({a, 1 - a}) : ContactVector<3>({2 + a, 0.});
+  const double a =
+      contact_dof.x[0] - 0.5 * contact_dof.x[2] + 0.1 * contact_dof.x[0] * contact_dof.x[2];
+  return contact_dof.is_friction() ? ContactVector<3>({a, 1 - a}) : ContactVector<3>({2 + a, 0.});
 }
 
 /** Children take the polynomials of their parent, pressures as well as frictions, from cells that persist and that do not. */
@@ -266,19 +268,19 @@ TEST(Unilateral, TransferKeepsPolynomials)
 {
   const Scene<3> scene = lifted_slab({{"Adaptivity/Method", "hap3"}});
   const BoxTables<3> tables(3);
-  MomentSpace<3>::Mesh mesh(MPI_COMM_SELF);
+  PrimalSpace<3>::Mesh mesh(MPI_COMM_SELF);
   make_mesh(scene, static_cast<Triangulation<3> &>(mesh));
-  const MomentSpace<3> coarse(scene, mesh, tables);
+  const PrimalSpace<3> coarse(scene, mesh, tables);
   std::vector<ContactVector<3>> lambda;
-  for (const ContactMoment<3> &moment : coarse.contact)
-    lambda.push_back(bilinear(moment));
+  for (const ContactDof<3> &contact_dof : coarse.contact)
+    lambda.push_back(bilinear(contact_dof));
   mesh.begin_active()->set_refine_flag();
   mesh.last_active()->set_refine_flag();
   mesh.prepare_coarsening_and_refinement();
   DistributedVector u = coarse.ghosted_vector();
   Transfer<3> transfer(mesh, coarse, u, lambda);
   mesh.execute_coarsening_and_refinement();
-  const MomentSpace<3> fine(scene, mesh, tables);
+  const PrimalSpace<3> fine(scene, mesh, tables);
   transfer.unpack(fine, u, lambda);
   ASSERT_EQ(lambda.size(), fine.contact.size());
   ASSERT_GT(fine.contact.size(), coarse.contact.size());

@@ -110,9 +110,9 @@ struct ContactOracle
     for (const ContactFace<2> &face : spaces.contact_space.faces())
     {
       if (face.n_multipliers > 0)
-        add_moments(face, face.first_multiplier, face.n_multipliers, false);
+        add_contact_dofs(face, face.first_multiplier, face.n_multipliers, false);
       if (face.condition->is_unilateral() && normal == NormalContact::multiplier)
-        add_moments(face, face.pressures.front(), face.pressures.size(), true);
+        add_contact_dofs(face, face.pressures.front(), face.pressures.size(), true);
       else if (face.condition->is_unilateral())
         add_nodes(face);
     }
@@ -139,8 +139,8 @@ private:
     return (x - edge->vertex(0)) * along / along.norm_square();
   }
 
-  void add_moments(const ContactFace<2> &face, const unsigned int first, const unsigned int n,
-                   const bool is_normal)
+  void add_contact_dofs(const ContactFace<2> &face, const unsigned int first, const unsigned int n,
+                        const bool is_normal)
   {
     const auto basis = Polynomials::generate_complete_Lagrange_basis(QGauss<1>(n).get_points());
     // More points than the degree needs: gaps are polynomials, too.

@@ -16,7 +16,7 @@
 #include <hpvi/results/true_error.h>
 #include <hpvi/results/warnings/warnings.h>
 #include <hpvi/solvers/coulomb_solver.h>
-#include <hpvi/space/moment_newton.h>
+#include <hpvi/space/semismooth_newton.h>
 
 #include <functional>
 #include <limits>
@@ -58,7 +58,7 @@ struct ReducedPart
 template <int dim>
 struct PrimalPart
 {
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   const DistributedVector &u; ///< nodal values, with those of neighbours
   NewtonReport newton;
   /** What the body has done since the load step before, or since it was at rest. Collective. */

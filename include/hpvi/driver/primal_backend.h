@@ -10,7 +10,7 @@
 namespace hpvi
 {
 /**
- * Newton's method on displacements and moments of contact: meshes of boxes, of one degree, in the plane and in
+ * Newton's method on displacements and contact dofs: meshes of boxes, of one degree, in the plane and in
  * space, distributed over any number of processes; no dense matrix. Each step starts from the solution of
  * the one before.
  */
@@ -55,22 +55,22 @@ private:
   using Backend<dim>::begin;
 
   PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator,
-                std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh);
+                std::shared_ptr<typename PrimalSpace<dim>::Mesh> mesh);
 
   void number();
   void assemble();
   void reach_loads();
-  void iterate(FrictionIteration<dim> &friction, MomentMatrix<dim> &matrix, DistributedVector &v,
+  void iterate(FrictionIteration<dim> &friction, NewtonMatrix<dim> &matrix, DistributedVector &v,
                const NewtonSettings &settings);
   NewtonSettings first_settings() const;
   bool is_exact(NewtonSettings &settings) const;
   PastState<dim> end_state() const;
   void take();
 
-  const std::shared_ptr<typename MomentSpace<dim>::Mesh> mesh;
+  const std::shared_ptr<typename PrimalSpace<dim>::Mesh> mesh;
   const BoxTables<dim> tables;
   const ShapeTables<dim> shape_tables; ///< for its field
-  std::unique_ptr<MomentSpace<dim>> space;
+  std::unique_ptr<PrimalSpace<dim>> space;
   std::unique_ptr<PrimalSystem<dim>> system;          ///< of it; null before solve()
   DistributedVector u;                                ///< on the current mesh, from the one before
   std::vector<ContactVector<dim>> lambda;             ///< likewise

@@ -125,7 +125,7 @@ enum class SolutionPath
 /** What solves the linear systems of the primal path. */
 enum class LinearMethod
 {
-  automatic, ///< the fastest that the mesh allows, see MomentMatrix
+  automatic, ///< the fastest that the mesh allows, see NewtonMatrix
   multigrid, ///< conjugate gradients without a matrix, preconditioned by geometric multigrid: in space
   amg,       ///< conjugate gradients, preconditioned by algebraic multigrid
   direct     ///< sparse factorisation

@@ -2,7 +2,7 @@
 #ifndef hpvi_augmented_lagrangian_h
 #define hpvi_augmented_lagrangian_h
 
-#include <hpvi/space/moment_matrix.h>
+#include <hpvi/space/newton_matrix.h>
 
 #include <algorithm>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace hpvi
 {
 /**
- * Minimises `1/2 v'A v - f'v + sum_k G_k |m_k|`, m_k the moments of v at disc k, under `m_k <= u_0` where a
+ * Minimises `1/2 v'A v - f'v + sum_k G_k |m_k|`, m_k the contact dofs of v at disc k, under `m_k <= u_0` where a
  * pressure acts, from wherever it starts: each update minimises the smooth, strictly convex function
  *
  *     1/2 v'A v - f'v + sum_k G_k/c_k h(lambda_k + c_k (m_k - u_0)),
@@ -26,8 +26,8 @@ class AugmentedLagrangian
 {
 public:
   /** Starts with @p lambda; @p weights, G_k, live as long as this. */
-  AugmentedLagrangian(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
-                      MomentMatrix<dim> &matrix, const std::vector<double> &weights,
+  AugmentedLagrangian(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
+                      NewtonMatrix<dim> &matrix, const std::vector<double> &weights,
                       const std::vector<ContactVector<dim>> &lambda);
 
   /** One minimisation from @p v and one update of lambda; returns the steps. Collective. Throws NumericalFailure. */
@@ -39,15 +39,15 @@ private:
   double contact_forces() const;
   DistributedVector gradient(const DistributedVector &v) const;
   double change(const DistributedVector &v) const;
-  std::vector<MomentState<dim>> states(const DistributedVector &v) const;
+  std::vector<ContactDofState<dim>> states(const DistributedVector &v) const;
   double work_of_contact(const DistributedVector &v, const DistributedVector &step,
                          double length) const;
   double length_of(const DistributedVector &v, const DistributedVector &step,
                    const DistributedVector &gradient) const;
 
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   const PrimalSystem<dim> &system;
-  MomentMatrix<dim> &matrix;
+  NewtonMatrix<dim> &matrix;
   const std::vector<double> &weights;
   std::vector<ContactVector<dim>> lambda;
   double growth; ///< of c_k [stress/length]

@@ -2,7 +2,7 @@
 #ifndef hpvi_box_stiffness_h
 #define hpvi_box_stiffness_h
 
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <map>
 #include <memory>
@@ -11,22 +11,22 @@
 namespace hpvi
 {
 /**
- * Stiffness matrices of cells, K or T'KT in the basis of moments. Boxes of one size, material and set of components with moments
- * share one; of a mesh from a file parallelepipeds without moments do, others are made when they are asked for.
+ * Stiffness matrices of cells, K or T'KT in the basis of contact dofs. Boxes of one size, material and set of components with contact dofs
+ * share one; of a mesh from a file parallelepipeds without contact dofs do, others are made when they are asked for.
  */
 template <int dim>
 class BoxStiffness
 {
 public:
-  using Cell = typename MomentSpace<dim>::Cell;
+  using Cell = typename PrimalSpace<dim>::Cell;
   using Matrix = dealii::FullMatrix<double>;
 
-  explicit BoxStiffness(const MomentSpace<dim> &space);
+  explicit BoxStiffness(const PrimalSpace<dim> &space);
 
   /** Of nodal values; until the next call. */
   const Matrix &nodal(const Cell &cell) const;
 
-  /** In the basis of moments of a cell of this process; until the next call. */
+  /** In the basis of contact dofs of a cell of this process; until the next call. */
   const Matrix &operator()(const Cell &cell) const;
 
   /** K u of nodal values. */
@@ -39,7 +39,7 @@ private:
   const Matrix *known(const CellMap<dim> &map, dealii::types::material_id material) const;
   HookesLaw<dim> law(const Cell &cell) const;
 
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   const std::vector<bool> none;
   mutable std::vector<dealii::Tensor<1, dim>> sizes; ///< by size_class(), of cells that differ
   mutable std::map<std::tuple<unsigned int, unsigned int, std::vector<bool>>, Matrix> matrices;
@@ -55,10 +55,10 @@ private:
 
 /** T of `u = T v` on @p cell of this process. */
 template <int dim>
-dealii::FullMatrix<double> basis_of_moments(const MomentSpace<dim> &space,
-                                            const typename MomentSpace<dim>::Cell &cell);
+dealii::FullMatrix<double> basis_of_moments(const PrimalSpace<dim> &space,
+                                            const typename PrimalSpace<dim>::Cell &cell);
 
-/** Has any component moments? */
+/** Has any component contact dofs? */
 bool any(const std::vector<bool> &moment_components);
 } // namespace hpvi
 

@@ -31,8 +31,8 @@ struct BoxTable
 template <int dim>
 using CellField = std::vector<dealii::Tensor<1, dim>>;
 
-/** The change from the inner nodes of a contact face to its moments, `m = M u_inner + W u_rim`. */
-struct FaceMoments
+/** The change from the inner nodes of a contact face to its contact dofs, `m = M u_inner + W u_rim`. */
+struct FaceContactDofs
 {
   dealii::FullMatrix<double> M, M_inverse, W;
   std::vector<double> areas; ///< `int psi_k`
@@ -40,10 +40,10 @@ struct FaceMoments
 
 /**
  * All that depends on the degree alone: of cells that are boxes: shape functions at Gauss points, the
- * stiffness of the unit cell, and the change from the inner nodes of a contact face to moments.
+ * stiffness of the unit cell, and the change from the inner nodes of a contact face to contact dofs.
  *
  * A contact face has as many inner nodes as Gauss points x_k of the rule with p-1 points a direction.
- * With psi_k, Lagrange's basis at these points, the moments `m_k = int psi_k u / int psi_k` take the
+ * With psi_k, Lagrange's basis at these points, the contact dofs `m_k = int psi_k u / int psi_k` take the
  * place of the inner nodal values:
  *
  *     m = M u_inner + W u_rim,    u_inner = M^-1 (m - W u_rim).
@@ -63,12 +63,13 @@ public:
   std::vector<BoxTable<dim>> faces;                  ///< by face, likewise
   std::vector<BoxTable<dim>> moment_points;          ///< by face: the Gauss points x_k
   std::vector<std::vector<unsigned int>> inner, rim; ///< shape functions of a face by face
-  FaceMoments moments; ///< of the unit face, the same for all: of parallelograms but for their area
+  FaceContactDofs
+      contact_dofs; ///< of the unit face, the same for all: of parallelograms but for their area
 
-  /** Number of moments of each component on a face, `(p-1)^(dim-1)`. */
-  unsigned int n_moments() const
+  /** Number of contact dofs of each component on a face, `(p-1)^(dim-1)`. */
+  unsigned int n_contact_dofs() const
   {
-    return moments.M.m();
+    return contact_dofs.M.m();
   }
 
   /** psi_k at a point of the unit face whose coordinates along the axes of the body are @p x. */
@@ -82,16 +83,17 @@ public:
   dealii::FullMatrix<double> stiffness(const HookesLaw<dim> &law, const CellMap<dim> &map) const;
 
   /** Of a face whose measure is not constant: `m_k = int psi_k u ds / int psi_k ds`. */
-  FaceMoments moments_of(const CellMap<dim> &map, unsigned int face) const;
+  FaceContactDofs moments_of(const CellMap<dim> &map, unsigned int face) const;
 
-  /** T of `u = T v` on a box: @p components[dim face + component] says where v has moments for inner nodes. */
+  /** T of `u = T v` on a box: @p components[dim face + component] says where v has contact dofs for inner nodes. */
   dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &components) const;
 
 private:
   dealii::FE_Q<dim> scalar() const;
   void number_faces();
-  FaceMoments make_moments(unsigned int face,
-                           const std::function<double(const dealii::Point<dim> &)> &measure) const;
+  FaceContactDofs
+  make_contact_dofs(unsigned int face,
+                    const std::function<double(const dealii::Point<dim> &)> &measure) const;
 
   std::vector<double> gauss; ///< coordinates of the points x_k
   std::array<std::array<dealii::FullMatrix<double>, dim>, dim>

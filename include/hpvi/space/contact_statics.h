@@ -4,7 +4,7 @@
 
 #include <hpvi/scene/space_motion.h>
 #include <hpvi/solvers/nearest_force.h>
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <optional>
 #include <string>
@@ -32,7 +32,7 @@ class ContactStatics
 {
 public:
   /** @p f is the load vector of the space. Collective, as all that follows. */
-  ContactStatics(const MomentSpace<3> &space, const DistributedVector &f);
+  ContactStatics(const PrimalSpace<3> &space, const DistributedVector &f);
 
   /** Throws NumericalFailure, with the motion that sets in and both forces, where no pressures at all balance the loads. */
   void require_static_admissibility() const;
@@ -40,7 +40,7 @@ public:
   /** What the mesh lacks, whose pressures act inside of its faces: loads may pass between the last point and an edge. */
   struct Missing
   {
-    std::vector<MomentSpace<3>::Cell> cells; ///< of this process, with faces that would resist
+    std::vector<PrimalSpace<3>::Cell> cells; ///< of this process, with faces that would resist
     std::size_t n_cells;                     ///< of all processes
     std::string why;                         ///< for the one who gives up
   };
@@ -53,19 +53,19 @@ public:
   double imbalance(const std::vector<ContactVector<3>> &lambda, std::string &words) const;
 
 private:
-  std::vector<ContactSpot> spots_of(const MomentFace<3> &face) const;
-  std::vector<ContactSpot> ends_of(const MomentFace<3> &face) const;
+  std::vector<ContactSpot> spots_of(const ContactDofFace<3> &face) const;
+  std::vector<ContactSpot> ends_of(const ContactDofFace<3> &face) const;
   SpaceMotion sum(const Force &coefficients) const;
   std::string in_words(const Force &motion, double load, const std::string &what,
                        double resistance) const;
   std::string why(const std::vector<ContactSpot> &spots, const Separation &separation) const;
 
-  const MomentSpace<3> &space;
+  const PrimalSpace<3> &space;
   const std::vector<SpaceMotion> motions; ///< independent, with one centre
   std::vector<DistributedVector> steps;   ///< the same in the unknowns
   Force loads;                            ///< along them; 0 where round-off is all there is
   std::vector<double> sizes;              ///< of the loads along each, without their signs
-  std::vector<ContactSpot> on_mesh, ends; ///< of all processes: of moments; corners of faces
+  std::vector<ContactSpot> on_mesh, ends; ///< of all processes: of contact dofs; corners of faces
 };
 } // namespace hpvi
 

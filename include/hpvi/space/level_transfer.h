@@ -23,15 +23,15 @@ public:
   void restrict_to(Vector &coarse_r, Vector &fine_r) const; ///< P'; fine_r is lost
 
   /**
-   * Of coarse moments what fine ones are: one is held where all of those in its square of the face are, and its H is the sum
+   * Of coarse contact dofs what fine ones are: one is held where all of those in its square of the face are, and its H is the sum
    * of theirs that slip. Collective.
    */
-  std::vector<MomentState<3>> coarse_states() const;
+  std::vector<ContactDofState<3>> coarse_states() const;
 
 private:
-  struct Link ///< of a coarse moment to a fine one
+  struct Link ///< of a coarse contact dof to a fine one
   {
-    unsigned int coarse;              ///< number in MomentSpace::contact
+    unsigned int coarse;              ///< number in PrimalSpace::contact
     std::array<unsigned int, 2> fine; ///< local elements
   };
   struct Piece ///< what a fine cell takes from a coarse one
@@ -49,11 +49,11 @@ private:
   struct Assembly;
 
   void build_matrices();
-  void add_piece(Assembly &assembly, const typename MomentSpace<3>::Cell &coarse,
+  void add_piece(Assembly &assembly, const typename PrimalSpace<3>::Cell &coarse,
                  unsigned int child, const std::vector<dealii::types::global_dof_index> &bases);
-  void add_links(const typename MomentSpace<3>::Cell &coarse, unsigned int child,
+  void add_links(const typename PrimalSpace<3>::Cell &coarse, unsigned int child,
                  const std::vector<dealii::types::global_dof_index> &bases);
-  unsigned int coarse_nodes(const typename MomentSpace<3>::Cell &cell);
+  unsigned int coarse_nodes(const typename PrimalSpace<3>::Cell &cell);
   void share_rows();
   template <typename Operation>
   void for_each_coarse_value(unsigned int first, Operation &&operation) const;

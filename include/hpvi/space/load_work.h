@@ -2,7 +2,7 @@
 #ifndef hpvi_load_work_h
 #define hpvi_load_work_h
 
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 namespace hpvi
 {
@@ -11,7 +11,7 @@ namespace hpvi
  * direction on each cell and face; the path itself takes p + 1. Collective.
  */
 template <int dim>
-double load_work(const Scene<dim> &scene, const MomentSpace<dim> &space, const DistributedVector &u,
+double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const DistributedVector &u,
                  unsigned int n_points);
 } // namespace hpvi
 

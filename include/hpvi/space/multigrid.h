@@ -12,7 +12,7 @@ namespace hpvi
 {
 /**
  * Geometric multigrid for `A + H` in space by global coarsening: each mesh has all cells of the next one coarsened once,
- * moments of the same degree on its contact faces, and the states of contact that LevelTransfer hands down. A V-cycle
+ * contact dofs of the same degree on its contact faces, and the states of contact that LevelTransfer hands down. A V-cycle
  * smooths by Chebyshev polynomials of degree 6 in single precision. A new state of the contact takes no set-up but
  * the factorisation of the coarsest mesh.
  */
@@ -20,14 +20,14 @@ class Multigrid
 {
 public:
   /** Does @p space offer what it takes: degrees 2 to 4, and a coarse mesh that a factorisation likes? */
-  static bool is_for(const MomentSpace<3> &space);
+  static bool is_for(const PrimalSpace<3> &space);
 
   /** @p space must outlive it. Collective. */
-  explicit Multigrid(const MomentSpace<3> &space);
+  explicit Multigrid(const PrimalSpace<3> &space);
 
   void multiply(DistributedVector &y, const DistributedVector &x) const;            ///< y = A x
   void multiply_linearised(DistributedVector &y, const DistributedVector &x) const; ///< (A + H) x
-  void linearise(const std::vector<MomentState<3>> &states);                        ///< collective
+  void linearise(const std::vector<ContactDofState<3>> &states);                    ///< collective
   void precondition(DistributedVector &z, const DistributedVector &r) const;        ///< one V-cycle
 
   MultigridLevel<double> finest; ///< A, to which conjugate gradients are exact
@@ -39,7 +39,7 @@ private:
   struct Level
   {
     std::shared_ptr<const dealii::Triangulation<3>> mesh;
-    std::unique_ptr<MomentSpace<3>> own_space; ///< null on the finest mesh
+    std::unique_ptr<PrimalSpace<3>> own_space; ///< null on the finest mesh
     std::unique_ptr<MultigridLevel<float>> matrix;
     std::unique_ptr<LevelTransfer> from_below; ///< null on the coarsest mesh
     std::unique_ptr<Smoother> smoother;

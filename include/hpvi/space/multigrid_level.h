@@ -4,16 +4,16 @@
 
 #include <hpvi/space/box_stiffness.h>
 #include <hpvi/space/cell_operator.h>
-#include <hpvi/space/moment_state.h>
-#include <hpvi/space/moment_transform.h>
+#include <hpvi/space/contact_dof_state.h>
+#include <hpvi/space/contact_dof_transform.h>
 
 #include <deal.II/base/subscriptor.h>
 
 namespace hpvi
 {
 /**
- * `A + H` on one mesh in the basis of moments, `A = T'KT`, without a matrix: what is held or constrained is zero in all
- * results. Of blocks at moments and the diagonal there are entries, exact ones, hanging nodes included.
+ * `A + H` on one mesh in the basis of contact dofs, `A = T'KT`, without a matrix: what is held or constrained is zero in all
+ * results. Of blocks at contact dofs and the diagonal there are entries, exact ones, hanging nodes included.
  */
 template <typename Number>
 class MultigridLevel : public dealii::Subscriptor
@@ -23,23 +23,24 @@ public:
   using Block = dealii::SymmetricTensor<2, 2>;
 
   /** @p space must outlive it. Collective. */
-  explicit MultigridLevel(const MomentSpace<3> &space);
+  explicit MultigridLevel(const PrimalSpace<3> &space);
 
-  void reinit(Vector &v) const;                              ///< zero, as products want it
-  void multiply(Vector &y, const Vector &x) const;           ///< y = A x; x may lack neighbours
-  void linearise(const std::vector<MomentState<3>> &states); ///< what is held, and H, from here on
-  void vmult(Vector &y, const Vector &x) const;              ///< y = (A + H) x
+  void reinit(Vector &v) const;                    ///< zero, as products want it
+  void multiply(Vector &y, const Vector &x) const; ///< y = A x; x may lack neighbours
+  void
+  linearise(const std::vector<ContactDofState<3>> &states); ///< what is held, and H, from here on
+  void vmult(Vector &y, const Vector &x) const;             ///< y = (A + H) x
   void mask(Vector &x) const; ///< zero where it is held or constrained
 
   /** z = D^-1 r with the diagonal, and 2x2 blocks of `A + H` at friction that slips. */
   void precondition(Vector &z, const Vector &r) const;
 
-  const MomentSpace<3> &space;
-  std::vector<Block> blocks; ///< of A at moments; of a pressure a multiple of the unit matrix
-  std::vector<MomentState<3>> states; ///< as last linearised
-  const MomentTransform<Number> &transform() const
+  const PrimalSpace<3> &space;
+  std::vector<Block> blocks; ///< of A at contact dofs; of a pressure a multiple of the unit matrix
+  std::vector<ContactDofState<3>> states; ///< as last linearised
+  const ContactDofTransform<Number> &transform() const
   {
-    return *moments;
+    return *contact_dofs;
   }
   const dealii::Utilities::MPI::Partitioner &partitioner() const
   {
@@ -49,7 +50,7 @@ public:
   void resolve(dealii::types::global_dof_index dof,
                const std::function<void(unsigned int, double)> &take) const
   {
-    MomentTransform<Number>::resolve(space, inverse_diagonal, dof, take);
+    ContactDofTransform<Number>::resolve(space, inverse_diagonal, dof, take);
   }
 
 private:
@@ -58,7 +59,7 @@ private:
 
   dealii::AffineConstraints<Number> constraints; ///< as of the space, in its own numbers
   std::unique_ptr<CellOperator<Number>> cells;
-  std::unique_ptr<MomentTransform<Number>> moments;
+  std::unique_ptr<ContactDofTransform<Number>> contact_dofs;
   Vector inverse_diagonal;
   std::vector<unsigned int> constrained; ///< of this process
   mutable std::vector<Number> kept;

@@ -11,7 +11,7 @@ namespace hpvi
 {
 /** Of u and lambda on a distributed mesh of boxes, for equilibrium(). Collective. */
 template <int dim>
-NodalForces<dim> nodal_forces(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
+NodalForces<dim> nodal_forces(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
                               const DistributedVector &u,
                               const std::vector<ContactVector<dim>> &lambda);
 } // namespace hpvi

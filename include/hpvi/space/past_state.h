@@ -17,14 +17,14 @@ struct PastState
 {
   std::shared_ptr<const Scene<dim>> scene;
   DistributedVector u;                      ///< with those of neighbours
-  std::vector<ContactVector<dim>> traction; ///< of each moment [stress]
+  std::vector<ContactVector<dim>> traction; ///< of each contact dof [stress]
   std::vector<typename NodalForces<dim>::Reaction>
       supports; ///< of this process, on the mesh of its own
 };
 
 /** Of a solution with the nodal @p forces. Collective. */
 template <int dim>
-PastState<dim> end_state(const MomentSpace<dim> &space, const DistributedVector &u,
+PastState<dim> end_state(const PrimalSpace<dim> &space, const DistributedVector &u,
                          const std::vector<ContactVector<dim>> &lambda,
                          const NodalForces<dim> &forces);
 
@@ -34,7 +34,7 @@ PastState<dim> end_state(const MomentSpace<dim> &space, const DistributedVector 
  * increments there. Collective.
  */
 template <int dim>
-Work work(const PastState<dim> *last, const PastState<dim> &next, const MomentSpace<dim> &space,
+Work work(const PastState<dim> *last, const PastState<dim> &next, const PrimalSpace<dim> &space,
           const PrimalSystem<dim> &system);
 } // namespace hpvi
 

@@ -8,13 +8,13 @@
 
 namespace hpvi
 {
-/** A and f of `1/2 v'A v - f'v` in the basis of moments; rows of constrained unknowns are diagonal. */
+/** A and f of `1/2 v'A v - f'v` in the basis of contact dofs; rows of constrained unknowns are diagonal. */
 template <int dim>
 class PrimalSystem
 {
 public:
   /** Collective. Throws InputError where a load is not finite. */
-  explicit PrimalSystem(const MomentSpace<dim> &space);
+  explicit PrimalSystem(const PrimalSpace<dim> &space);
 
   double energy_product(const DistributedVector &u) const; ///< a(u, u), collective
   double work(const DistributedVector &u) const;           ///< L(u), collective
@@ -34,7 +34,7 @@ public:
   DistributedVector f;
 
 private:
-  using Cell = typename MomentSpace<dim>::Cell;
+  using Cell = typename PrimalSpace<dim>::Cell;
 
   CellField<dim> body_load(const Cell &cell) const;
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
@@ -42,7 +42,7 @@ private:
   void assemble_loads();
   void add_nodal_forces(const DistributedVector &u, NodalForces &forces) const;
 
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   const BoxStiffness<dim> stiffness;
   dealii::TrilinosWrappers::SparseMatrix A; ///< empty until matrix()
 };

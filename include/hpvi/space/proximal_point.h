@@ -3,8 +3,8 @@
 #define hpvi_proximal_point_h
 
 #include <hpvi/space/contact_statics.h>
-#include <hpvi/space/moment_matrix.h>
-#include <hpvi/space/moment_newton.h>
+#include <hpvi/space/newton_matrix.h>
+#include <hpvi/space/semismooth_newton.h>
 
 #include <functional>
 #include <vector>
@@ -13,7 +13,7 @@ namespace hpvi
 {
 /**
  * Holds a body that contact alone holds while Newton's method looks for stick and slip: soft springs along its contact add
- * `1/2 sum_k s_k |m_k - a_k|^2` to the energy, with centres a_k where the moments were before. That is strictly convex, and
+ * `1/2 sum_k s_k |m_k - a_k|^2` to the energy, with centres a_k where the contact dofs were before. That is strictly convex, and
  * solved again and again from where it has ended, the proximal point method (Rockafellar 1976, doi:10.1137/0314056), the
  * springs carry nothing in the end.
  */
@@ -23,7 +23,7 @@ public:
   using Solve = std::function<NewtonReport(const NewtonSettings &)>;
 
   /** All of them live as long as this, which changes the f of @p system. */
-  ProximalPoint(const MomentSpace<3> &space, PrimalSystem<3> &system, MomentMatrix<3> &matrix);
+  ProximalPoint(const PrimalSpace<3> &space, PrimalSystem<3> &system, NewtonMatrix<3> &matrix);
 
   ~ProximalPoint();
   ProximalPoint(const ProximalPoint &) = delete;
@@ -40,7 +40,7 @@ private:
   void drop_anchors(const DistributedVector &v);
   double regularise(const DistributedVector &v, double &energy) const;
 
-  const MomentSpace<3> &space;
+  const PrimalSpace<3> &space;
   PrimalSystem<3> &system;
   const DistributedVector loads;
   const ContactStatics statics;

@@ -2,7 +2,7 @@
 #ifndef hpvi_rigid_motions_h
 #define hpvi_rigid_motions_h
 
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <vector>
 
@@ -12,9 +12,9 @@ namespace hpvi
 template <int dim>
 constexpr unsigned int n_motions = dim *(dim + 1) / 2;
 
-/** Of the unknowns of this process, one motion after the other: at nodes the motion there, at moments that at their Gauss point. */
+/** Of the unknowns of this process, one motion after the other: at nodes the motion there, at contact dofs that at their Gauss point. */
 template <int dim>
-std::vector<double> rigid_motions(const MomentSpace<dim> &space);
+std::vector<double> rigid_motions(const PrimalSpace<dim> &space);
 } // namespace hpvi
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef hpvi_stored_values_h
 #define hpvi_stored_values_h
 
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <deal.II/lac/vector.h>
 
@@ -20,13 +20,13 @@ struct StoredValues
 
 /** Collective. */
 template <int dim>
-StoredValues stored_values(const MomentSpace<dim> &space, const DistributedVector &u,
+StoredValues stored_values(const PrimalSpace<dim> &space, const DistributedVector &u,
                            const std::vector<ContactVector<dim>> &lambda);
 
 /** Sets both; false where the numbers are those of another mesh. Collective. */
 template <int dim>
 bool take_stored(const dealii::Vector<double> &stored_u, const dealii::Vector<double> &stored_z,
-                 const MomentSpace<dim> &space, DistributedVector &u,
+                 const PrimalSpace<dim> &space, DistributedVector &u,
                  std::vector<ContactVector<dim>> &lambda);
 } // namespace hpvi
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_transfer_h
 #define hpvi_transfer_h
 
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <vector>
 
@@ -15,13 +15,13 @@ struct CellValues
 };
 
 template <int dim>
-CellValues values_on(const typename MomentSpace<dim>::Cell &cell, const MomentSpace<dim> &space,
+CellValues values_on(const typename PrimalSpace<dim>::Cell &cell, const PrimalSpace<dim> &space,
                      const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
 
 /** Takes them for @p cell, or for its children: u at nodes, lambda at discs, which must be zero there. */
 template <int dim>
 void take_values(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-                 const CellValues &values, const MomentSpace<dim> &space, DistributedVector &u,
+                 const CellValues &values, const PrimalSpace<dim> &space, DistributedVector &u,
                  std::vector<ContactVector<dim>> &lambda);
 
 /**
@@ -32,14 +32,14 @@ template <int dim>
 class Transfer
 {
 public:
-  using Mesh = typename MomentSpace<dim>::Mesh;
+  using Mesh = typename PrimalSpace<dim>::Mesh;
 
   /** The arguments must live until the mesh is refined. */
-  Transfer(Mesh &mesh, const MomentSpace<dim> &space, const DistributedVector &u,
+  Transfer(Mesh &mesh, const PrimalSpace<dim> &space, const DistributedVector &u,
            const std::vector<ContactVector<dim>> &lambda);
 
   /** Of the new @p space: u with neighbours, lambda by discs. Collective. */
-  void unpack(const MomentSpace<dim> &space, DistributedVector &u,
+  void unpack(const PrimalSpace<dim> &space, DistributedVector &u,
               std::vector<ContactVector<dim>> &lambda);
 
 private:

@@ -3,7 +3,7 @@
 #define hpvi_upper_energy_h
 
 #include <hpvi/results/energies.h>
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 namespace hpvi
 {
@@ -14,7 +14,7 @@ namespace hpvi
  * @p work = L(u_N) are those of the path. Collective.
  */
 template <int dim>
-double upper_energy(const MomentSpace<dim> &space, const DistributedVector &u,
+double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
                     const Energies &energies, double work);
 } // namespace hpvi
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_moment_field_h
-#define hpvi_moment_field_h
+#ifndef hpvi_primal_field_h
+#define hpvi_primal_field_h
 
 #include <hpvi/results/field.h>
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <array>
 #include <memory>
@@ -11,15 +11,15 @@
 
 namespace hpvi
 {
-/** The field of the primal path: u of nodal values, which knows its neighbours, and lambda by ContactMoment. */
+/** The field of the primal path: u of nodal values, which knows its neighbours, and lambda by ContactDof. */
 template <int dim>
-class MomentField : public Field<dim>
+class PrimalField : public Field<dim>
 {
 public:
   using typename Field<dim>::Cell;
 
   /** All of them live as long as this. */
-  MomentField(const MomentSpace<dim> &space, const ShapeTables<dim> &tables,
+  PrimalField(const PrimalSpace<dim> &space, const ShapeTables<dim> &tables,
               const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
 
   std::vector<double> coefficients(const Cell &cell) const override;
@@ -37,17 +37,18 @@ public:
   std::unique_ptr<const Field<dim>> round_off_probe(const Scene<dim> &unloaded) const override;
 
 private:
-  MomentField(const Scene<dim> &scene, const MomentSpace<dim> &space,
+  PrimalField(const Scene<dim> &scene, const PrimalSpace<dim> &space,
               const ShapeTables<dim> &tables, std::shared_ptr<const DistributedVector> u,
               std::shared_ptr<const std::vector<ContactVector<dim>>> lambda);
 
   ContactTraction<dim> multiplier(const FieldFace<dim> &face, unsigned int k) const;
 
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   const std::shared_ptr<const DistributedVector> u;
   const std::shared_ptr<const std::vector<ContactVector<dim>>> lambda;
-  std::vector<const MomentFace<dim> *> moment_faces; ///< by face; null: it has no moments
-  std::vector<ShapeTable<dim>> moment_tables;        ///< by number of a face of the unit cell
+  std::vector<const ContactDofFace<dim> *>
+      contact_dof_faces;                      ///< by face; null: it has no contact dofs
+  std::vector<ShapeTable<dim>> moment_tables; ///< by number of a face of the unit cell
 };
 } // namespace hpvi
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/space/moment_newton.h>
+#include <hpvi/space/semismooth_newton.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr double linear_part = 0.1;
 constexpr unsigned int maximum_updates = 60; ///< of the augmented Lagrangian
 
 /**
- * From all moments held a front of slip or of open contact advances by a few of them in each step of Newton's method:
+ * From all contact dofs held a front of slip or of open contact advances by a few of them in each step of Newton's method:
  * more than these start with the augmented Lagrangian, whose number of steps does not depend on the mesh. In space they lie
  * in two directions: 400 take eight steps where the augmented Lagrangian takes thirty.
  */
@@ -54,46 +54,46 @@ NewtonReport &NewtonReport::operator+=(const NewtonReport &next)
 }
 
 template <int dim>
-MomentNewton<dim>::MomentNewton(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
-                                MomentMatrix<dim> &matrix)
+SemismoothNewton<dim>::SemismoothNewton(const PrimalSpace<dim> &space,
+                                        const PrimalSystem<dim> &system, NewtonMatrix<dim> &matrix)
     : space(space), system(system), matrix(matrix), c(space.contact.size()),
       z(space.contact.size()), r(space.owned_vector())
 {
   std::vector<double> own;
-  for (const ContactMoment<dim> &moment : space.contact)
-    own.push_back(moment.weight);
+  for (const ContactDof<dim> &contact_dof : space.contact)
+    own.push_back(contact_dof.weight);
   take_weights(own);
 }
 
 template <int dim>
-void MomentNewton<dim>::take_weights(const std::vector<double> &new_weights)
+void SemismoothNewton<dim>::take_weights(const std::vector<double> &new_weights)
 {
   weights = new_weights;
   fallback.reset(); // which has other ones
   for (unsigned int k = 0; k < c.size(); ++k)
-    if (acts(k)) // a tenth of the stiffness that a moment meets; its size hardly matters
+    if (acts(k)) // a tenth of the stiffness that a contact dof meets; its size hardly matters
       c[k] = 0.1 * stiffness(k) / weights[k];
 }
 
 template <int dim>
-bool MomentNewton<dim>::acts(const unsigned int k) const
+bool SemismoothNewton<dim>::acts(const unsigned int k) const
 {
   return weights[k] > 0;
 }
 
-/** What a moment meets in A, the mean of its directions. */
+/** What a contact dof meets in A, the mean of its directions. */
 template <int dim>
-double MomentNewton<dim>::stiffness(const unsigned int k) const
+double SemismoothNewton<dim>::stiffness(const unsigned int k) const
 {
   return trace(matrix.block(k)) / (dim - 1);
 }
 
 /** m - u_0 */
 template <int dim>
-ContactVector<dim> MomentNewton<dim>::distance(const DistributedVector &v,
-                                               const unsigned int k) const
+ContactVector<dim> SemismoothNewton<dim>::distance(const DistributedVector &v,
+                                                   const unsigned int k) const
 {
-  return space.moment(v, k) - space.contact[k].gap;
+  return space.contact_value(v, k) - space.contact[k].gap;
 }
 
 /**
@@ -101,40 +101,40 @@ ContactVector<dim> MomentNewton<dim>::distance(const DistributedVector &v,
  * a pressure of either sign, and its product with the distance would be taken for an error.
  */
 template <int dim>
-ContactVector<dim> MomentNewton<dim>::admissible(const unsigned int k) const
+ContactVector<dim> SemismoothNewton<dim>::admissible(const unsigned int k) const
 {
-  const ContactMoment<dim> &moment = space.contact[k];
-  return moment.projected(moment.is_friction() ? lambda[k] : z[k]);
+  const ContactDof<dim> &contact_dof = space.contact[k];
+  return contact_dof.projected(contact_dof.is_friction() ? lambda[k] : z[k]);
 }
 
 /** What is missing to the equality of both energies, and the price of penetration. */
 template <int dim>
-double MomentNewton<dim>::gap(const DistributedVector &v, const unsigned int k) const
+double SemismoothNewton<dim>::gap(const DistributedVector &v, const unsigned int k) const
 {
-  const ContactMoment<dim> &moment = space.contact[k];
+  const ContactDof<dim> &contact_dof = space.contact[k];
   const ContactVector<dim> m = distance(v, k);
-  if (moment.is_friction())
+  if (contact_dof.is_friction())
     return weights[k] * (m.norm() - admissible(k) * m);
   const double depth =
-      moment.kind == ContactMoment<dim>::Kind::reaction ? m[0] : std::max(0., m[0]);
+      contact_dof.kind == ContactDof<dim>::Kind::reaction ? m[0] : std::max(0., m[0]);
   return weights[k] * std::abs(admissible(k)[0] * m[0]) + 0.5 * stiffness(k) * depth * depth;
 }
 
 /** r without the forces of the contact. */
 template <int dim>
-DistributedVector MomentNewton<dim>::off_contact() const
+DistributedVector SemismoothNewton<dim>::off_contact() const
 {
   DistributedVector result = r;
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k))
-      space.set_moment(result, k, {});
+      space.set_contact_value(result, k, {});
   return result;
 }
 
 /** Of the equations off the contact and of `G (lambda - P(z))`; brings lambda, z and r up to date. */
 template <int dim>
-typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const DistributedVector &v,
-                                                                 const bool keep_lambda)
+typename SemismoothNewton<dim>::Residual SemismoothNewton<dim>::residual(const DistributedVector &v,
+                                                                         const bool keep_lambda)
 {
   DistributedVector product = v;
   matrix.multiply(product, v);
@@ -145,16 +145,16 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const Distribut
   {
     if (!acts(k))
       continue;
-    const ContactMoment<dim> &moment = space.contact[k];
+    const ContactDof<dim> &contact_dof = space.contact[k];
     const double G = weights[k];
-    const ContactVector<dim> force = space.moment(r, k);
+    const ContactVector<dim> force = space.contact_value(r, k);
     if (keep_lambda)
       on_contact += (force - G * lambda[k]).norm_square();
     else
       lambda[k] = force / G;
     z[k] = lambda[k] + c[k] * distance(v, k);
-    on_contact += G * G * (lambda[k] - moment.projected(z[k])).norm_square();
-    forces += moment.is_friction() ? 0. : G * G * moment.projected(z[k]).norm_square();
+    on_contact += G * G * (lambda[k] - contact_dof.projected(z[k])).norm_square();
+    forces += contact_dof.is_friction() ? 0. : G * G * contact_dof.projected(z[k]).norm_square();
     gaps += gap(v, k);
   }
   const std::vector<double> mine{on_contact, gaps, forces};
@@ -165,14 +165,14 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::residual(const Distribut
 }
 
 template <int dim>
-std::vector<MomentState<dim>> MomentNewton<dim>::states(const bool all_held) const
+std::vector<ContactDofState<dim>> SemismoothNewton<dim>::states(const bool all_held) const
 {
-  std::vector<MomentState<dim>> result(c.size());
+  std::vector<ContactDofState<dim>> result(c.size());
   for (unsigned int k = 0; k < c.size(); ++k)
   {
-    const ContactMoment<dim> &moment = space.contact[k];
-    result[k].is_held = acts(k) && (all_held || moment.holds(z[k]));
-    if (!acts(k) || result[k].is_held || !moment.is_friction())
+    const ContactDof<dim> &contact_dof = space.contact[k];
+    result[k].is_held = acts(k) && (all_held || contact_dof.holds(z[k]));
+    if (!acts(k) || result[k].is_held || !contact_dof.is_friction())
       continue;
     const double size = z[k].norm();
     const ContactVector<dim> n = z[k] / size;
@@ -184,14 +184,14 @@ std::vector<MomentState<dim>> MomentNewton<dim>::states(const bool all_held) con
   return result;
 }
 
-/** Where moments are held: 0, or the gap. */
+/** Where contact dofs are held: 0, or the gap. */
 template <int dim>
-void MomentNewton<dim>::hold(DistributedVector &v,
-                             const std::vector<MomentState<dim>> &states) const
+void SemismoothNewton<dim>::hold(DistributedVector &v,
+                                 const std::vector<ContactDofState<dim>> &states) const
 {
   for (unsigned int k = 0; k < c.size(); ++k)
     if (states[k].is_held)
-      space.set_moment(v, k, space.contact[k].gap);
+      space.set_contact_value(v, k, space.contact[k].gap);
 }
 
 /**
@@ -200,42 +200,42 @@ void MomentNewton<dim>::hold(DistributedVector &v,
  */
 template <int dim>
 DistributedVector
-MomentNewton<dim>::right_hand_side(const std::vector<MomentState<dim>> &states) const
+SemismoothNewton<dim>::right_hand_side(const std::vector<ContactDofState<dim>> &states) const
 {
   DistributedVector b = system.f;
   for (unsigned int k = 0; k < c.size(); ++k)
-    space.add_moment(b, k,
-                     states[k].stiffness * space.contact[k].gap -
-                         weights[k] * space.contact[k].projected(z[k]));
+    space.add_contact_value(b, k,
+                            states[k].stiffness * space.contact[k].gap -
+                                weights[k] * space.contact[k].projected(z[k]));
   return b;
 }
 
 /** Deeper than round-off beside @p force? */
 template <int dim>
-bool MomentNewton<dim>::penetrates(const DistributedVector &v, const double force) const
+bool SemismoothNewton<dim>::penetrates(const DistributedVector &v, const double force) const
 {
   double deepest = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
-    if (space.contact[k].kind == ContactMoment<dim>::Kind::pressure)
+    if (space.contact[k].kind == ContactDof<dim>::Kind::pressure)
       deepest = std::max(deepest, stiffness(k) * distance(v, k)[0]);
   return Utilities::MPI::max(deepest, space.communicator()) > 1e-10 * force;
 }
 
 template <int dim>
-double MomentNewton<dim>::friction(const DistributedVector &v, const DistributedVector &step,
-                                   const double length) const
+double SemismoothNewton<dim>::friction(const DistributedVector &v, const DistributedVector &step,
+                                       const double length) const
 {
   double sum = 0;
   for (unsigned int k = 0; k < c.size(); ++k)
-    if (const ContactMoment<dim> &moment = space.contact[k]; moment.is_friction())
-      sum += weights[k] * (distance(v, k) + length * space.moment(step, k)).norm();
+    if (const ContactDof<dim> &contact_dof = space.contact[k]; contact_dof.is_friction())
+      sum += weights[k] * (distance(v, k) + length * space.contact_value(step, k)).norm();
   return Utilities::MPI::sum(sum, space.communicator());
 }
 
 /** Exact line search from @p old to @p v where the energy, a convex function, rises between them. */
 template <int dim>
-bool MomentNewton<dim>::shorten(DistributedVector &v, const DistributedVector &old,
-                                const double load) const
+bool SemismoothNewton<dim>::shorten(DistributedVector &v, const DistributedVector &old,
+                                    const double load) const
 {
   if (space.n_pressures > 0 && (penetrates(old, load) || penetrates(v, load)))
     return false;
@@ -264,26 +264,26 @@ bool MomentNewton<dim>::shorten(DistributedVector &v, const DistributedVector &o
 }
 
 template <int dim>
-double MomentNewton<dim>::error(const double gap)
+double SemismoothNewton<dim>::error(const double gap)
 {
   DistributedVector rest = r, correction = r;
   for (unsigned int k = 0; k < c.size(); ++k)
     if (acts(k))
-      space.add_moment(rest, k, -weights[k] * admissible(k));
+      space.add_contact_value(rest, k, -weights[k] * admissible(k));
   matrix.precondition(correction, rest);
   for (unsigned int k = 0; k < c.size(); ++k) // what was held until now is none of its unknowns
-    if (acts(k) && space.moment(correction, k).norm() == 0)
-      space.add_moment(correction, k, space.moment(rest, k) / stiffness(k));
+    if (acts(k) && space.contact_value(correction, k).norm() == 0)
+      space.add_contact_value(correction, k, space.contact_value(rest, k) / stiffness(k));
   return std::sqrt(std::max(0., rest * correction) + 2 * gap);
 }
 
 template <int dim>
-void MomentNewton<dim>::count(const std::vector<MomentState<dim>> &states,
-                              NewtonReport &report) const
+void SemismoothNewton<dim>::count(const std::vector<ContactDofState<dim>> &states,
+                                  NewtonReport &report) const
 {
   unsigned int slipping = 0, pressing = 0;
-  for (const MomentFace<dim> &face : space.faces)
-    for (unsigned int k = 0; k < space.tables.n_moments(); ++k)
+  for (const ContactDofFace<dim> &face : space.faces)
+    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
     {
       const bool presses = face.has_pressure() && states[face.pressure + k].is_held;
       pressing += presses;
@@ -297,8 +297,8 @@ void MomentNewton<dim>::count(const std::vector<MomentState<dim>> &states,
 
 /** Can the iteration end? Brings the estimated error up to date where it is asked for. */
 template <int dim>
-bool MomentNewton<dim>::is_exact(const NewtonSettings &settings, const Residual &now,
-                                 NewtonReport &report)
+bool SemismoothNewton<dim>::is_exact(const NewtonSettings &settings, const Residual &now,
+                                     NewtonReport &report)
 {
   report.residual = now.load > 0 ? now.norm / now.load : 0;
   const bool is_small = now.norm <= settings.residual * now.load;
@@ -309,8 +309,8 @@ bool MomentNewton<dim>::is_exact(const NewtonSettings &settings, const Residual 
 
 /** In the place of a Newton step. */
 template <int dim>
-typename MomentNewton<dim>::Residual MomentNewton<dim>::augment(DistributedVector &v,
-                                                                NewtonReport &report)
+typename SemismoothNewton<dim>::Residual SemismoothNewton<dim>::augment(DistributedVector &v,
+                                                                        NewtonReport &report)
 {
   if (!fallback)
     fallback = std::make_unique<AugmentedLagrangian<dim>>(space, system, matrix, weights, lambda);
@@ -319,18 +319,20 @@ typename MomentNewton<dim>::Residual MomentNewton<dim>::augment(DistributedVecto
 }
 
 template <int dim>
-NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactVector<dim>> &start,
-                                      const NewtonSettings &settings,
-                                      const std::function<void(const NewtonReport &)> &heard)
+NewtonReport SemismoothNewton<dim>::solve(DistributedVector &v,
+                                          std::vector<ContactVector<dim>> &start,
+                                          const NewtonSettings &settings,
+                                          const std::function<void(const NewtonReport &)> &heard)
 {
   const bool warm =
       Utilities::MPI::max(start.size(), space.communicator()) > 0 || space.n_multipliers() == 0;
   lambda = start;
   lambda.resize(c.size());
   for (unsigned int k = 0; warm && k < c.size(); ++k)
-    if (const ContactMoment<dim> &moment = space.contact[k];
-        acts(k) && (moment.is_friction() ? lambda[k].norm() < 1 - 1e-3 : moment.holds(lambda[k])))
-      space.set_moment(v, k, moment.gap);
+    if (const ContactDof<dim> &contact_dof = space.contact[k];
+        acts(k) &&
+        (contact_dof.is_friction() ? lambda[k].norm() < 1 - 1e-3 : contact_dof.holds(lambda[k])))
+      space.set_contact_value(v, k, contact_dof.gap);
   const unsigned int cg_before = matrix.n_steps, setups_before = matrix.n_setups;
   NewtonReport report;
   Residual now = residual(v, warm);
@@ -374,9 +376,9 @@ NewtonReport MomentNewton<dim>::solve(DistributedVector &v, std::vector<ContactV
 }
 
 template <int dim>
-NewtonReport MomentNewton<dim>::measure(const DistributedVector &v,
-                                        const std::vector<ContactVector<dim>> &where,
-                                        const NewtonSettings &settings)
+NewtonReport SemismoothNewton<dim>::measure(const DistributedVector &v,
+                                            const std::vector<ContactVector<dim>> &where,
+                                            const NewtonSettings &settings)
 {
   NewtonReport report;
   lambda = where;
@@ -387,14 +389,14 @@ NewtonReport MomentNewton<dim>::measure(const DistributedVector &v,
 
 /** Eisenstat and Walker's rule (1996): the better the last step, the more exact the next. */
 template <int dim>
-double MomentNewton<dim>::linear_tolerance(const NewtonSettings &settings, const Residual &now,
-                                           const unsigned int step) const
+double SemismoothNewton<dim>::linear_tolerance(const NewtonSettings &settings, const Residual &now,
+                                               const unsigned int step) const
 {
   const double eta =
       step == 0 ? 0.1 : std::clamp(0.9 * std::pow(now.norm / previous, 2), 1e-3, 0.1);
   return std::max(eta * now.norm, 0.3 * settings.residual * now.load);
 }
 
-template class MomentNewton<2>;
-template class MomentNewton<3>;
+template class SemismoothNewton<2>;
+template class SemismoothNewton<3>;
 } // namespace hpvi

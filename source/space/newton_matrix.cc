@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/space/moment_matrix.h>
+#include <hpvi/space/newton_matrix.h>
 #include <hpvi/space/rigid_motions.h>
 
 #include <deal.II/base/timer.h>
@@ -44,7 +44,7 @@ Teuchos::ParameterList multigrid_parameters(std::vector<double> &motions)
 } // namespace
 
 template <int dim>
-LinearMethod linear_method(const MomentSpace<dim> &space)
+LinearMethod linear_method(const PrimalSpace<dim> &space)
 {
   if constexpr (dim == 3)
     if (const LinearMethod wanted = space.scene.solver.linear; wanted != LinearMethod::automatic)
@@ -56,13 +56,13 @@ LinearMethod linear_method(const MomentSpace<dim> &space)
 }
 
 template <int dim>
-MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system)
-    : MomentMatrix(space, system, linear_method(space))
+NewtonMatrix<dim>::NewtonMatrix(const PrimalSpace<dim> &space, PrimalSystem<dim> &system)
+    : NewtonMatrix(space, system, linear_method(space))
 {
 }
 
 template <int dim>
-MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim> &system,
+NewtonMatrix<dim>::NewtonMatrix(const PrimalSpace<dim> &space, PrimalSystem<dim> &system,
                                 const LinearMethod method)
     : method(method), space(space), system(system), blocks(space.contact.size()),
       inserted(space.contact.size()), states(space.contact.size()), springs(space.contact.size())
@@ -72,7 +72,7 @@ MomentMatrix<dim>::MomentMatrix(const MomentSpace<dim> &space, PrimalSystem<dim>
 
 /** What #method wants. */
 template <int dim>
-void MomentMatrix<dim>::begin()
+void NewtonMatrix<dim>::begin()
 {
   const Timer timer;
   if constexpr (dim == 3)
@@ -84,41 +84,41 @@ void MomentMatrix<dim>::begin()
       return;
     }
   multigrid.reset();
-  if (!A) // else its entries at moments are no longer those of the body alone
+  if (!A) // else its entries at contact dofs are no longer those of the body alone
     assemble();
   setup_seconds += timer.wall_time();
 }
 
 template <int dim>
-void MomentMatrix<dim>::assemble()
+void NewtonMatrix<dim>::assemble()
 {
   A = &system.matrix();
   for (unsigned int k = 0; k < blocks.size(); ++k)
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s; ++t)
-        if (const auto &moment = space.contact[k]; moment.is_friction() || s == t)
-          blocks[k][s][t] = A->el(space.owned.nth_index_in_set(moment.unknowns[s]),
-                                  space.owned.nth_index_in_set(moment.unknowns[t]));
+        if (const auto &contact_dof = space.contact[k]; contact_dof.is_friction() || s == t)
+          blocks[k][s][t] = A->el(space.owned.nth_index_in_set(contact_dof.unknowns[s]),
+                                  space.owned.nth_index_in_set(contact_dof.unknowns[t]));
   motions = hpvi::rigid_motions(space);
 }
 
 template <int dim>
-const typename MomentMatrix<dim>::Block &MomentMatrix<dim>::block(const unsigned int k) const
+const typename NewtonMatrix<dim>::Block &NewtonMatrix<dim>::block(const unsigned int k) const
 {
   return blocks[k];
 }
 
 /** What is held is no unknown. */
 template <int dim>
-void MomentMatrix<dim>::mask(DistributedVector &x) const
+void NewtonMatrix<dim>::mask(DistributedVector &x) const
 {
   for (unsigned int k = 0; k < states.size(); ++k)
     if (states[k].is_held)
-      space.set_moment(x, k, {});
+      space.set_contact_value(x, k, {});
 }
 
 template <int dim>
-void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &x) const
+void NewtonMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &x) const
 {
   if constexpr (dim == 3)
     if (multigrid)
@@ -127,13 +127,14 @@ void MomentMatrix<dim>::multiply(DistributedVector &y, const DistributedVector &
     A->vmult(y, x);
   for (unsigned int k = 0; k < springs.size(); ++k)
   {
-    const ContactVector<dim> m = space.moment(x, k);
-    space.add_moment(y, k, springs[k] * m - (multigrid ? ContactVector<dim>() : inserted[k] * m));
+    const ContactVector<dim> m = space.contact_value(x, k);
+    space.add_contact_value(y, k,
+                            springs[k] * m - (multigrid ? ContactVector<dim>() : inserted[k] * m));
   }
 }
 
 template <int dim>
-void MomentMatrix<dim>::multiply_linearised(DistributedVector &y, const DistributedVector &x) const
+void NewtonMatrix<dim>::multiply_linearised(DistributedVector &y, const DistributedVector &x) const
 {
   if constexpr (dim == 3)
     if (multigrid)
@@ -143,12 +144,12 @@ void MomentMatrix<dim>::multiply_linearised(DistributedVector &y, const Distribu
     }
   A->vmult(y, x);
   for (unsigned int k = 0; k < states.size(); ++k)
-    space.add_moment(y, k, (states[k].stiffness - inserted[k]) * space.moment(x, k));
+    space.add_contact_value(y, k, (states[k].stiffness - inserted[k]) * space.contact_value(x, k));
   mask(y);
 }
 
 template <int dim>
-void MomentMatrix<dim>::set_block(const unsigned int k, const Block &block)
+void NewtonMatrix<dim>::set_block(const unsigned int k, const Block &block)
 {
   const auto &unknowns = space.contact[k].unknowns;
   const unsigned int n = space.contact[k].n_unknowns();
@@ -159,7 +160,7 @@ void MomentMatrix<dim>::set_block(const unsigned int k, const Block &block)
 }
 
 template <int dim>
-void MomentMatrix<dim>::set_up()
+void NewtonMatrix<dim>::set_up()
 {
   const Timer timer;
   amg.reset();
@@ -188,7 +189,7 @@ void MomentMatrix<dim>::set_up()
 
 /** By CHOLMOD, without what is held. */
 template <int dim>
-void MomentMatrix<dim>::factor_alone()
+void NewtonMatrix<dim>::factor_alone()
 {
   std::vector<char> is_held(space.owned.n_elements(), 0);
   for (unsigned int k = 0; k < states.size(); ++k)
@@ -218,7 +219,7 @@ void MomentMatrix<dim>::factor_alone()
 
 /** By MUMPS. */
 template <int dim>
-void MomentMatrix<dim>::factor_together()
+void NewtonMatrix<dim>::factor_together()
 {
   std::vector<types::global_dof_index> held;
   for (unsigned int k = 0; k < states.size(); ++k)
@@ -233,7 +234,7 @@ void MomentMatrix<dim>::factor_together()
 }
 
 template <int dim>
-void MomentMatrix<dim>::factor()
+void NewtonMatrix<dim>::factor()
 {
   const Timer timer;
   amg.reset();
@@ -254,13 +255,14 @@ void MomentMatrix<dim>::factor()
 }
 
 template <int dim>
-void MomentMatrix<dim>::add_springs(const std::vector<double> &stiffness)
+void NewtonMatrix<dim>::add_springs(const std::vector<double> &stiffness)
 {
   springs = stiffness;
 }
 
 template <int dim>
-void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_states, const bool anew)
+void NewtonMatrix<dim>::linearise(const std::vector<ContactDofState<dim>> &new_states,
+                                  const bool anew)
 {
   types::global_dof_index changed = 0;
   for (unsigned int k = 0; k < states.size(); ++k)
@@ -275,7 +277,7 @@ void MomentMatrix<dim>::linearise(const std::vector<MomentState<dim>> &new_state
 
 /** Multigrid or factors for the states; that of ML where it is wanted @p anew or missing. */
 template <int dim>
-void MomentMatrix<dim>::prepare(const bool anew)
+void NewtonMatrix<dim>::prepare(const bool anew)
 {
   if constexpr (dim == 3)
     if (multigrid)
@@ -302,7 +304,7 @@ void MomentMatrix<dim>::prepare(const bool anew)
 
 /** The next method takes the place of this one. */
 template <int dim>
-void MomentMatrix<dim>::give_way()
+void NewtonMatrix<dim>::give_way()
 {
   if (method == LinearMethod::direct)
     throw NumericalFailure("neither conjugate gradients with multigrid nor a factorisation solve "
@@ -315,7 +317,7 @@ void MomentMatrix<dim>::give_way()
 }
 
 template <int dim>
-void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVector &r) const
+void NewtonMatrix<dim>::precondition(DistributedVector &z, const DistributedVector &r) const
 {
   if constexpr (dim == 3)
     if (multigrid)
@@ -340,7 +342,8 @@ void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVect
   amg->vmult(z, r);
   for (unsigned int k = 0; k < states.size(); ++k)
     if (!states[k].is_held && known[k].is_held)
-      space.add_moment(z, k, invert(blocks[k] + states[k].stiffness) * space.moment(r, k));
+      space.add_contact_value(z, k,
+                              invert(blocks[k] + states[k].stiffness) * space.contact_value(r, k));
   mask(z);
 }
 
@@ -349,7 +352,7 @@ void MomentMatrix<dim>::precondition(DistributedVector &z, const DistributedVect
  * next direction is made orthogonal to the last one by its own product (Polak and Ribiere).
  */
 template <int dim>
-bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b,
+bool NewtonMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b,
                                 const double tolerance, const double error)
 {
   DistributedVector r = b, z = b, p, q = b;
@@ -382,7 +385,7 @@ bool MomentMatrix<dim>::iterate(DistributedVector &v, const DistributedVector &b
 }
 
 template <int dim>
-void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
+void NewtonMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
                               const double tolerance, const double error)
 {
   const DistributedVector start = v;
@@ -393,8 +396,8 @@ void MomentMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
   }
 }
 
-template LinearMethod linear_method(const MomentSpace<2> &);
-template LinearMethod linear_method(const MomentSpace<3> &);
-template class MomentMatrix<2>;
-template class MomentMatrix<3>;
+template LinearMethod linear_method(const PrimalSpace<2> &);
+template LinearMethod linear_method(const PrimalSpace<3> &);
+template class NewtonMatrix<2>;
+template class NewtonMatrix<3>;
 } // namespace hpvi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/plane/friction_rule.h>
-#include <hpvi/space/moment_field.h>
+#include <hpvi/space/primal_field.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace
 /** In the plane one boundary after the other, along the tangent; in space by boundary. */
 template <int dim>
 std::vector<std::pair<typename Field<dim>::Cell, unsigned int>>
-contact_faces(const MomentSpace<dim> &space)
+contact_faces(const PrimalSpace<dim> &space)
 {
   struct Place
   {
@@ -49,16 +49,16 @@ contact_faces(const MomentSpace<dim> &space)
 } // namespace
 
 template <int dim>
-MomentField<dim>::MomentField(const MomentSpace<dim> &space, const ShapeTables<dim> &tables,
+PrimalField<dim>::PrimalField(const PrimalSpace<dim> &space, const ShapeTables<dim> &tables,
                               const DistributedVector &u,
                               const std::vector<ContactVector<dim>> &lambda)
-    : MomentField(space.scene, space, tables, {std::shared_ptr<void>(), &u},
+    : PrimalField(space.scene, space, tables, {std::shared_ptr<void>(), &u},
                   {std::shared_ptr<void>(), &lambda})
 {
 }
 
 template <int dim>
-MomentField<dim>::MomentField(const Scene<dim> &scene, const MomentSpace<dim> &space,
+PrimalField<dim>::PrimalField(const Scene<dim> &scene, const PrimalSpace<dim> &space,
                               const ShapeTables<dim> &tables,
                               std::shared_ptr<const DistributedVector> u,
                               std::shared_ptr<const std::vector<ContactVector<dim>>> lambda)
@@ -68,14 +68,14 @@ MomentField<dim>::MomentField(const Scene<dim> &scene, const MomentSpace<dim> &s
   for (const auto &[cell, face] : contact_faces(space))
   {
     this->add_face(cell, face);
-    moment_faces.push_back(space.moment_face(cell, face));
+    contact_dof_faces.push_back(space.moment_face(cell, face));
   }
   for (const BoxTable<dim> &table : space.tables.moment_points)
     moment_tables.push_back(tabulate<dim>(space.tables.degree, table.points, table.weights, false));
 }
 
 template <int dim>
-std::vector<double> MomentField<dim>::coefficients(const Cell &cell) const
+std::vector<double> PrimalField<dim>::coefficients(const Cell &cell) const
 {
   const LocalNumbering &numbering = this->tables.numbering(space.tables.degree);
   std::vector<types::global_dof_index> dofs(numbering.shape.size());
@@ -87,18 +87,18 @@ std::vector<double> MomentField<dim>::coefficients(const Cell &cell) const
 }
 
 template <int dim>
-double MomentField<dim>::largest_displacement() const
+double PrimalField<dim>::largest_displacement() const
 {
   return u->linfty_norm();
 }
 
-/** At Gauss point @p k. Moments have the axes of the body, to which the tangent in the plane is parallel. */
+/** At Gauss point @p k. Contact dofs have the axes of the body, to which the tangent in the plane is parallel. */
 template <int dim>
-ContactTraction<dim> MomentField<dim>::multiplier(const FieldFace<dim> &face,
+ContactTraction<dim> PrimalField<dim>::multiplier(const FieldFace<dim> &face,
                                                   const unsigned int k) const
 {
   ContactTraction<dim> result;
-  const MomentFace<dim> *const own = moment_faces[face.number];
+  const ContactDofFace<dim> *const own = contact_dof_faces[face.number];
   if (own && own->has_friction())
   {
     const double sign = dim == 2 && (face.face_no == 0 || face.face_no == 3) ? -1. : 1.;
@@ -111,11 +111,11 @@ ContactTraction<dim> MomentField<dim>::multiplier(const FieldFace<dim> &face,
 }
 
 template <int dim>
-ContactTraction<dim> MomentField<dim>::traction(const FieldFace<dim> &face,
+ContactTraction<dim> PrimalField<dim>::traction(const FieldFace<dim> &face,
                                                 const Point<dim> &reference) const
 {
   ContactTraction<dim> result;
-  for (unsigned int k = 0; moment_faces[face.number] && k < space.tables.n_moments(); ++k)
+  for (unsigned int k = 0; contact_dof_faces[face.number] && k < space.tables.n_contact_dofs(); ++k)
   {
     const double psi = space.tables.psi(k, face.face_no, reference);
     const ContactTraction<dim> own = multiplier(face, k);
@@ -126,7 +126,7 @@ ContactTraction<dim> MomentField<dim>::traction(const FieldFace<dim> &face,
 }
 
 template <int dim>
-double MomentField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &reference) const
+double PrimalField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &reference) const
 {
   const FrictionLaw<dim> &law = face.condition->friction;
   return law.limit(face.map.point(reference),
@@ -134,7 +134,7 @@ double MomentField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &ref
 }
 
 template <int dim>
-Tangential<dim> MomentField<dim>::past_slip(const FieldFace<dim> &face, const Point<dim> &x) const
+Tangential<dim> PrimalField<dim>::past_slip(const FieldFace<dim> &face, const Point<dim> &x) const
 {
   if (!space.past)
     return {};
@@ -152,10 +152,10 @@ Tangential<dim> MomentField<dim>::past_slip(const FieldFace<dim> &face, const Po
 }
 
 template <int dim>
-std::vector<double> MomentField<dim>::friction_cuts(const FieldFace<dim> &face) const
+std::vector<double> PrimalField<dim>::friction_cuts(const FieldFace<dim> &face) const
 {
   const unsigned int p = space.tables.degree;
-  if (!moment_faces[face.number] || !moment_faces[face.number]->has_friction())
+  if (!contact_dof_faces[face.number] || !contact_dof_faces[face.number]->has_friction())
     return {};
   if constexpr (dim == 2)
     return make_friction_rule(
@@ -171,11 +171,11 @@ std::vector<double> MomentField<dim>::friction_cuts(const FieldFace<dim> &face) 
 }
 
 template <int dim>
-std::vector<MultiplierPoint<dim>> MomentField<dim>::multiplier_points(const FieldFace<dim> &face,
+std::vector<MultiplierPoint<dim>> PrimalField<dim>::multiplier_points(const FieldFace<dim> &face,
                                                                       const double negligible) const
 {
   const ShapeTable<dim> &table = multiplier_table(face);
-  const MomentFace<dim> *const own = moment_faces[face.number];
+  const ContactDofFace<dim> *const own = contact_dof_faces[face.number];
   const double area = face.area();
   std::vector<MultiplierPoint<dim>> result;
   for (unsigned int k = 0; k < table.points.size(); ++k)
@@ -190,35 +190,35 @@ std::vector<MultiplierPoint<dim>> MomentField<dim>::multiplier_points(const Fiel
 }
 
 template <int dim>
-const ShapeTable<dim> &MomentField<dim>::multiplier_table(const FieldFace<dim> &face) const
+const ShapeTable<dim> &PrimalField<dim>::multiplier_table(const FieldFace<dim> &face) const
 {
   return moment_tables[face.face_no];
 }
 
 template <int dim>
-std::vector<PressureValue<dim>> MomentField<dim>::pressures(const FieldFace<dim> &face) const
+std::vector<PressureValue<dim>> PrimalField<dim>::pressures(const FieldFace<dim> &face) const
 {
   std::vector<PressureValue<dim>> result;
-  const MomentFace<dim> *const own = moment_faces[face.number];
-  for (unsigned int k = 0; own && own->has_pressure() && k < space.tables.n_moments(); ++k)
+  const ContactDofFace<dim> *const own = contact_dof_faces[face.number];
+  for (unsigned int k = 0; own && own->has_pressure() && k < space.tables.n_contact_dofs(); ++k)
     result.push_back({space.contact[own->pressure + k].x, (*lambda)[own->pressure + k][0]});
   return result;
 }
 
 template <int dim>
-double MomentField<dim>::contact_work() const
+double PrimalField<dim>::contact_work() const
 {
-  const DistributedVector v = space.moments(*u);
+  const DistributedVector v = space.in_contact_dofs(*u);
   double sum = 0;
   for (unsigned int k = 0; k < space.contact.size(); ++k)
     sum += space.contact[k].area * space.contact[k].bound_by(*lambda) * (*lambda)[k] *
-           (space.moment(v, k) - space.contact[k].gap);
+           (space.contact_value(v, k) - space.contact[k].gap);
   return Utilities::MPI::sum(sum, this->communicator());
 }
 
 template <int dim>
 std::unique_ptr<const Field<dim>>
-MomentField<dim>::round_off_probe(const Scene<dim> &unloaded) const
+PrimalField<dim>::round_off_probe(const Scene<dim> &unloaded) const
 {
   std::mt19937 random;
   std::uniform_real_distribution<double> uniform(-1., 1.);
@@ -237,10 +237,10 @@ MomentField<dim>::round_off_probe(const Scene<dim> &unloaded) const
     }
   bits->update_ghost_values();
   return std::unique_ptr<const Field<dim>>(
-      new MomentField(unloaded, space, this->tables, bits,
+      new PrimalField(unloaded, space, this->tables, bits,
                       std::make_shared<const std::vector<ContactVector<dim>>>(lambda->size())));
 }
 
-template class MomentField<2>;
-template class MomentField<3>;
+template class PrimalField<2>;
+template class PrimalField<3>;
 } // namespace hpvi

@@ -2,7 +2,7 @@
 #include <hpvi/base/input_error.h>
 #include <hpvi/scene/space_motion.h>
 #include <hpvi/space/consistent_constraints.h>
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 #include <hpvi/space/support_constraints.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -29,7 +29,7 @@ bool agreed_rests_on_contact(const Scene<dim> &scene, MPI_Comm communicator)
 } // namespace
 
 template <int dim>
-MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
+PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
                               const BoxTables<dim> &tables)
     : scene(scene), tables(tables),
       rests_on_contact(agreed_rests_on_contact(scene, mesh.get_communicator())), dof_handler(mesh)
@@ -44,10 +44,10 @@ MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
     constrained += constraints.is_constrained(i);
   n_free = dof_handler.n_dofs() - Utilities::MPI::sum(constrained, communicator());
   types::global_dof_index own_discs = 0, own_pressures = 0;
-  for (const MomentFace<dim> &face : faces)
+  for (const ContactDofFace<dim> &face : faces)
   {
-    own_discs += condition(face.cell, face.face).friction ? tables.n_moments() : 0;
-    own_pressures += face.has_pressure() ? tables.n_moments() : 0;
+    own_discs += condition(face.cell, face.face).friction ? tables.n_contact_dofs() : 0;
+    own_pressures += face.has_pressure() ? tables.n_contact_dofs() : 0;
   }
   n_discs = Utilities::MPI::sum(own_discs, communicator());
   n_pressures = Utilities::MPI::sum(own_pressures, communicator());
@@ -55,7 +55,7 @@ MomentSpace<dim>::MomentSpace(const Scene<dim> &scene, const Mesh &mesh,
 
 /** The components of a node one after the other, as multigrid wants them. */
 template <int dim>
-void MomentSpace<dim>::number()
+void PrimalSpace<dim>::number()
 {
   dof_handler.distribute_dofs(tables.fe);
   owned = dof_handler.locally_owned_dofs();
@@ -79,7 +79,7 @@ void MomentSpace<dim>::number()
 }
 
 template <int dim>
-void MomentSpace<dim>::find_contact()
+void PrimalSpace<dim>::find_contact()
 {
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   for (const Cell &cell : dof_handler.active_cell_iterators())
@@ -93,19 +93,19 @@ void MomentSpace<dim>::find_contact()
         const BoundaryCondition<dim> &boundary = condition(cell, number);
         if (!boundary.has_pressure() && !has_tangential_moments(boundary))
           continue;
-        MomentFace<dim> face = face_of(cell, number);
+        ContactDofFace<dim> face = face_of(cell, number);
         if (has_tangential_moments(boundary))
         {
           face.friction = contact.size();
-          add_moments(face, ContactMoment<dim>::Kind::friction, dofs);
+          add_contact_dofs(face, ContactDof<dim>::Kind::friction, dofs);
         }
         if (boundary.has_pressure())
         {
           face.pressure = contact.size();
-          add_moments(face,
-                      boundary.is_unilateral() ? ContactMoment<dim>::Kind::pressure
-                                               : ContactMoment<dim>::Kind::reaction,
-                      dofs);
+          add_contact_dofs(face,
+                           boundary.is_unilateral() ? ContactDof<dim>::Kind::pressure
+                                                    : ContactDof<dim>::Kind::reaction,
+                           dofs);
         }
         face_numbers[{cell->active_cell_index(), number}] = faces.size();
         faces.push_back(face);
@@ -115,9 +115,9 @@ void MomentSpace<dim>::find_contact()
 
 /** Faces of a mesh from a file have directions of their own, and measures. */
 template <int dim>
-MomentFace<dim> MomentSpace<dim>::face_of(const Cell &cell, const unsigned int number) const
+ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned int number) const
 {
-  MomentFace<dim> face{cell, number, {}};
+  ContactDofFace<dim> face{cell, number, {}};
   if (!scene.geometry.has_mesh())
   {
     Tensor<1, dim> normal;
@@ -134,54 +134,55 @@ MomentFace<dim> MomentSpace<dim>::face_of(const Cell &cell, const unsigned int n
   const double area = map.face_area(number);
   for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_face && !face.own; ++v)
     if (std::abs(map.face_measure(number, corner(v)) - area) > 1e-12 * area)
-      face.own = std::make_shared<const FaceMoments>(tables.moments_of(map, number));
+      face.own = std::make_shared<const FaceContactDofs>(tables.moments_of(map, number));
   return face;
 }
 
 template <int dim>
-void MomentSpace<dim>::add_moments(const MomentFace<dim> &face,
-                                   const typename ContactMoment<dim>::Kind kind,
-                                   const std::vector<types::global_dof_index> &dofs)
+void PrimalSpace<dim>::add_contact_dofs(const ContactDofFace<dim> &face,
+                                        const typename ContactDof<dim>::Kind kind,
+                                        const std::vector<types::global_dof_index> &dofs)
 {
   const BoxTable<dim> &table = tables.moment_points[face.face];
   const CellMap<dim> map = map_of<dim>(face.cell);
-  for (unsigned int k = 0; k < tables.n_moments(); ++k)
+  for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
   {
     const auto unknown = [&](const unsigned int component)
     { return owned.index_within_set(dof(dofs, tables.inner[face.face][k], component)); };
-    ContactMoment<dim> moment;
-    moment.kind = kind;
-    moment.x = moment.centroid = map.point(table.points[k]);
+    ContactDof<dim> contact_dof;
+    contact_dof.kind = kind;
+    contact_dof.x = contact_dof.centroid = map.point(table.points[k]);
     if (face.own) // which of a parallelogram is the Gauss point
-      moment.centroid = Point<dim>(
+      contact_dof.centroid = Point<dim>(
           mean<Tensor<1, dim>>(face, k, [](const Point<dim> &x) -> Tensor<1, dim> { return x; }));
-    moment.area = face.own ? face.own->areas[k] : table.weights[k] * map.face_area(face.face);
-    if (moment.is_friction())
+    contact_dof.area = face.own ? face.own->areas[k] : table.weights[k] * map.face_area(face.face);
+    if (contact_dof.is_friction())
     {
       const FrictionLaw<dim> &law = condition(face.cell, face.face).friction;
-      moment.limit = law.at(moment.x);
-      moment.bound = moment.limit.limit(0.);
+      contact_dof.limit = law.at(contact_dof.x);
+      contact_dof.bound = contact_dof.limit.limit(0.);
       if (law.knows_pressure()) // pressures follow all frictions of a face
-        moment.partner = contact.size() + tables.n_moments();
+        contact_dof.partner = contact.size() + tables.n_contact_dofs();
       for (unsigned int s = 0; s < dim - 1; ++s)
-        moment.unknowns[s] = unknown(face.tangential(s));
+        contact_dof.unknowns[s] = unknown(face.tangential(s));
     }
     else
     {
       if (condition(face.cell, face.face).gap)
-        moment.gap[0] = mean<double>(face, k, [&](const Point<dim> &x) { return gap_at(face, x); });
-      moment.sign = face.sign();
-      moment.unknowns.fill(unknown(face.normal()));
+        contact_dof.gap[0] =
+            mean<double>(face, k, [&](const Point<dim> &x) { return gap_at(face, x); });
+      contact_dof.sign = face.sign();
+      contact_dof.unknowns.fill(unknown(face.normal()));
     }
-    moment.weight = moment.bound * moment.area;
-    contact.push_back(moment);
+    contact_dof.weight = contact_dof.bound * contact_dof.area;
+    contact.push_back(contact_dof);
   }
 }
 
 /** `int psi_k f / int psi_k` by p+2 points a direction, as in the plane. */
 template <int dim>
 template <typename Value>
-Value MomentSpace<dim>::mean(const MomentFace<dim> &face, const unsigned int k,
+Value PrimalSpace<dim>::mean(const ContactDofFace<dim> &face, const unsigned int k,
                              const std::function<Value(const Point<dim> &)> &f) const
 {
   const QGauss<dim - 1> rule(tables.degree + 2);
@@ -198,7 +199,7 @@ Value MomentSpace<dim>::mean(const MomentFace<dim> &face, const unsigned int k,
 }
 
 template <int dim>
-double MomentSpace<dim>::gap_at(const MomentFace<dim> &face, const Point<dim> &x) const
+double PrimalSpace<dim>::gap_at(const ContactDofFace<dim> &face, const Point<dim> &x) const
 {
   const BoundaryCondition<dim> &boundary = condition(face.cell, face.face);
   const double gap = boundary.gap->value(x);
@@ -213,7 +214,7 @@ double MomentSpace<dim>::gap_at(const MomentFace<dim> &face, const Point<dim> &x
 }
 
 template <int dim>
-types::global_dof_index MomentSpace<dim>::dof(const std::vector<types::global_dof_index> &dofs,
+types::global_dof_index PrimalSpace<dim>::dof(const std::vector<types::global_dof_index> &dofs,
                                               const unsigned int shape,
                                               const unsigned int component) const
 {
@@ -221,38 +222,38 @@ types::global_dof_index MomentSpace<dim>::dof(const std::vector<types::global_do
 }
 
 template <int dim>
-MPI_Comm MomentSpace<dim>::communicator() const
+MPI_Comm PrimalSpace<dim>::communicator() const
 {
   return dof_handler.get_communicator();
 }
 
 template <int dim>
-DistributedVector MomentSpace<dim>::owned_vector() const
+DistributedVector PrimalSpace<dim>::owned_vector() const
 {
   return DistributedVector(owned, communicator());
 }
 
 template <int dim>
-DistributedVector MomentSpace<dim>::ghosted_vector() const
+DistributedVector PrimalSpace<dim>::ghosted_vector() const
 {
   return DistributedVector(owned, relevant, communicator());
 }
 
 template <int dim>
-DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) const
+DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) const
 {
   DistributedVector complete = v;
   constraints.distribute(complete);
   DistributedVector u = ghosted_vector();
   u.copy_locally_owned_data_from(complete);
   u.update_ghost_values();
-  const unsigned int n = tables.n_moments();
+  const unsigned int n = tables.n_contact_dofs();
   Vector<double> rest(n), inner(n);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const MomentFace<dim> &face : faces)
+  for (const ContactDofFace<dim> &face : faces)
   {
     face.cell->get_dof_indices(dofs);
-    const FaceMoments &moments = moments_on(face);
+    const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
     for (const unsigned int c : face.components())
     {
@@ -262,9 +263,9 @@ DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) con
         for (unsigned int own = 0; face.axes.is_rotated() && own < dim; ++own)
           rest[k] += face.direction(own)[c] * u(dof(dofs, inner_shapes[k], own));
         for (unsigned int j = 0; j < rim_shapes.size(); ++j)
-          rest[k] -= moments.W(k, j) * u(dof(dofs, rim_shapes[j], c));
+          rest[k] -= contact_dofs.W(k, j) * u(dof(dofs, rim_shapes[j], c));
       }
-      moments.M_inverse.vmult(inner, rest);
+      contact_dofs.M_inverse.vmult(inner, rest);
       for (unsigned int k = 0; k < n; ++k)
         complete(dof(dofs, inner_shapes[k], c)) = inner[k];
     }
@@ -276,23 +277,23 @@ DistributedVector MomentSpace<dim>::displacement(const DistributedVector &v) con
 }
 
 template <int dim>
-DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
+DistributedVector PrimalSpace<dim>::contact_dofs(const DistributedVector &u) const
 {
   DistributedVector v = owned_vector();
   v.copy_locally_owned_data_from(u);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const MomentFace<dim> &face : faces)
+  for (const ContactDofFace<dim> &face : faces)
   {
     const CellField<dim> field = this->field(face.cell, u);
-    const FaceMoments &moments = moments_on(face);
+    const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     face.cell->get_dof_indices(dofs);
-    for (unsigned int k = 0; k < tables.n_moments(); ++k)
+    for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
     {
       Tensor<1, dim> m;
-      for (unsigned int j = 0; j < tables.n_moments(); ++j)
-        m += moments.M(k, j) * field[tables.inner[face.face][j]];
-      for (unsigned int j = 0; j < moments.W.n(); ++j)
-        m += moments.W(k, j) * field[tables.rim[face.face][j]];
+      for (unsigned int j = 0; j < tables.n_contact_dofs(); ++j)
+        m += contact_dofs.M(k, j) * field[tables.inner[face.face][j]];
+      for (unsigned int j = 0; j < contact_dofs.W.n(); ++j)
+        m += contact_dofs.W(k, j) * field[tables.rim[face.face][j]];
       for (const unsigned int c : face.components())
         v(dof(dofs, tables.inner[face.face][k], c)) = m * face.direction(c);
     }
@@ -302,7 +303,8 @@ DistributedVector MomentSpace<dim>::moments(const DistributedVector &u) const
 }
 
 template <int dim>
-ContactVector<dim> MomentSpace<dim>::moment(const DistributedVector &v, const unsigned int k) const
+ContactVector<dim> PrimalSpace<dim>::contact_value(const DistributedVector &v,
+                                                   const unsigned int k) const
 {
   ContactVector<dim> result;
   for (unsigned int s = 0; s < contact[k].n_unknowns(); ++s)
@@ -311,34 +313,34 @@ ContactVector<dim> MomentSpace<dim>::moment(const DistributedVector &v, const un
 }
 
 template <int dim>
-void MomentSpace<dim>::add_moment(DistributedVector &v, const unsigned int k,
-                                  const ContactVector<dim> &value) const
+void PrimalSpace<dim>::add_contact_value(DistributedVector &v, const unsigned int k,
+                                         const ContactVector<dim> &value) const
 {
   for (unsigned int s = 0; s < contact[k].n_unknowns(); ++s)
     v.local_element(contact[k].unknowns[s]) += contact[k].sign * value[s];
 }
 
 template <int dim>
-void MomentSpace<dim>::set_moment(DistributedVector &v, const unsigned int k,
-                                  const ContactVector<dim> &value) const
+void PrimalSpace<dim>::set_contact_value(DistributedVector &v, const unsigned int k,
+                                         const ContactVector<dim> &value) const
 {
   for (unsigned int s = 0; s < contact[k].n_unknowns(); ++s)
     v.local_element(contact[k].unknowns[s]) = contact[k].sign * value[s];
 }
 
 template <int dim>
-void MomentSpace<dim>::count_slip_from(const DistributedVector &u)
+void PrimalSpace<dim>::count_slip_from(const DistributedVector &u)
 {
   past = u;
   past->update_ghost_values();
-  const DistributedVector v = moments(u);
+  const DistributedVector v = in_contact_dofs(u);
   for (unsigned int k = 0; k < contact.size(); ++k)
     if (contact[k].is_friction())
-      contact[k].gap = moment(v, k);
+      contact[k].gap = contact_value(v, k);
 }
 
 template <int dim>
-CellField<dim> MomentSpace<dim>::field(const Cell &cell, const DistributedVector &u) const
+CellField<dim> PrimalSpace<dim>::field(const Cell &cell, const DistributedVector &u) const
 {
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   cell->get_dof_indices(dofs);
@@ -350,20 +352,20 @@ CellField<dim> MomentSpace<dim>::field(const Cell &cell, const DistributedVector
 }
 
 template <int dim>
-Tensor<1, dim> MomentSpace<dim>::extent(const typename Triangulation<dim>::cell_iterator &cell)
+Tensor<1, dim> PrimalSpace<dim>::extent(const typename Triangulation<dim>::cell_iterator &cell)
 {
   return cell->vertex(GeometryInfo<dim>::vertices_per_cell - 1) - cell->vertex(0);
 }
 
 template <int dim>
-Point<dim> MomentSpace<dim>::point_of(const typename Triangulation<dim>::cell_iterator &cell,
+Point<dim> PrimalSpace<dim>::point_of(const typename Triangulation<dim>::cell_iterator &cell,
                                       const Point<dim> &unit)
 {
   return map_of<dim>(cell).point(unit);
 }
 
 template <int dim>
-const BoundaryCondition<dim> &MomentSpace<dim>::condition(const Cell &cell,
+const BoundaryCondition<dim> &PrimalSpace<dim>::condition(const Cell &cell,
                                                           const unsigned int face) const
 {
   return scene.boundaries[cell->face(face)->boundary_id()];
@@ -371,7 +373,7 @@ const BoundaryCondition<dim> &MomentSpace<dim>::condition(const Cell &cell,
 
 template <int dim>
 std::vector<bool>
-MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iterator &cell) const
+PrimalSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iterator &cell) const
 {
   std::vector<bool> result(dim * GeometryInfo<dim>::faces_per_cell, false);
   for (const unsigned int face : cell->face_indices())
@@ -387,13 +389,13 @@ MomentSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
 }
 
 template <int dim>
-const MomentFace<dim> *MomentSpace<dim>::moment_face(const Cell &cell,
-                                                     const unsigned int face) const
+const ContactDofFace<dim> *PrimalSpace<dim>::moment_face(const Cell &cell,
+                                                         const unsigned int face) const
 {
   const auto found = face_numbers.find({cell->active_cell_index(), face});
   return found == face_numbers.end() ? nullptr : &faces[found->second];
 }
 
-template class MomentSpace<2>;
-template class MomentSpace<3>;
+template class PrimalSpace<2>;
+template class PrimalSpace<3>;
 } // namespace hpvi

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_moment_transform_h
-#define hpvi_moment_transform_h
+#ifndef hpvi_contact_dof_transform_h
+#define hpvi_contact_dof_transform_h
 
-#include <hpvi/space/moment_space.h>
+#include <hpvi/space/primal_space.h>
 
 #include <array>
 #include <functional>
@@ -11,28 +11,29 @@
 namespace hpvi
 {
 /**
- * Between moments and the inner nodes of contact faces whose place they take (see BoxTables), in vectors of nodal values without
+ * Between contact dofs and the inner nodes of contact faces whose place they take (see BoxTables), in vectors of nodal values without
  * constrained ones: `u = T v` is `u_inner = M^-1 (m - W u_rim)`, all else alike; m of a face that is normal to no axis are first
  * turned from its directions. A contact face is one cell's, so that all of it works on local elements, those of neighbours included.
  */
 template <typename Number>
-class MomentTransform
+class ContactDofTransform
 {
 public:
   using Vector = dealii::LinearAlgebra::distributed::Vector<Number>;
 
   /** For vectors like @p pattern. */
-  MomentTransform(const MomentSpace<3> &space, const Vector &pattern);
+  ContactDofTransform(const PrimalSpace<3> &space, const Vector &pattern);
 
-  /** T in place; values of neighbours are brought up to date and kept. Puts moments into @p kept where it is not null. */
+  /** T in place; values of neighbours are brought up to date and kept. Puts contact dofs into @p kept where it is not null. */
   void to_nodes(Vector &v, std::vector<Number> *kept = nullptr) const;
-  void restore(Vector &v, const std::vector<Number> &kept) const; ///< moments that to_nodes() kept
-  void to_nodes_transposed(Vector &r) const;                      ///< T' in place
-  void to_moments(Vector &v) const;            ///< T^-1 in place, without neighbours then
-  void to_moments_transposed(Vector &r) const; ///< T^-T in place
+  void restore(Vector &v,
+               const std::vector<Number> &kept) const; ///< contact dofs that to_nodes() kept
+  void to_nodes_transposed(Vector &r) const;           ///< T' in place
+  void to_moments(Vector &v) const;                    ///< T^-1 in place, without neighbours then
+  void to_moments_transposed(Vector &r) const;         ///< T^-T in place
 
   /** Called with local elements and weights of `sum weight v`, the value at a node of a cell. */
-  static void resolve(const MomentSpace<3> &space, const Vector &pattern,
+  static void resolve(const PrimalSpace<3> &space, const Vector &pattern,
                       dealii::types::global_dof_index dof,
                       const std::function<void(unsigned int, double)> &take);
 
@@ -51,7 +52,7 @@ private:
     std::vector<Number> M, M_inverse;
   };
 
-  void add(const MomentSpace<3> &space, const Vector &pattern, const MomentFace<3> &face,
+  void add(const PrimalSpace<3> &space, const Vector &pattern, const ContactDofFace<3> &face,
            unsigned int matrix);
   void turn(Vector &v, bool to_axes) const;
   template <bool inverse>
@@ -59,7 +60,7 @@ private:
   template <bool inverse>
   void transform_transposed(Vector &r) const;
 
-  unsigned int n = 0;             ///< moments of a component
+  unsigned int n = 0;             ///< contact dofs of a component
   std::vector<Matrices> matrices; ///< the first of the unit face
   std::vector<Row> rows;
   std::vector<Turn> turns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/space/contact_moment.h>
+#include <hpvi/space/contact_dof.h>
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace hpvi
 using namespace dealii;
 
 template <int dim>
-ContactVector<dim> ContactMoment<dim>::projected(const ContactVector<dim> &z) const
+ContactVector<dim> ContactDof<dim>::projected(const ContactVector<dim> &z) const
 {
   ContactVector<dim> result;
   if (is_friction())
@@ -19,13 +19,13 @@ ContactVector<dim> ContactMoment<dim>::projected(const ContactVector<dim> &z) co
 }
 
 template <int dim>
-bool ContactMoment<dim>::holds(const ContactVector<dim> &z) const
+bool ContactDof<dim>::holds(const ContactVector<dim> &z) const
 {
   return is_friction() ? z.norm() <= 1 : kind == Kind::reaction || z[0] > 0;
 }
 
 template <int dim>
-std::vector<unsigned int> MomentFace<dim>::components() const
+std::vector<unsigned int> ContactDofFace<dim>::components() const
 {
   std::vector<unsigned int> result;
   for (unsigned int c = 0; c < dim; ++c)
@@ -35,19 +35,19 @@ std::vector<unsigned int> MomentFace<dim>::components() const
 }
 
 template <int dim>
-unsigned int MomentFace<dim>::tangential(const unsigned int s) const
+unsigned int ContactDofFace<dim>::tangential(const unsigned int s) const
 {
   return axes.is_rotated() || s < axes.axis ? s : s + 1;
 }
 
 template <int dim>
-unsigned int MomentFace<dim>::normal() const
+unsigned int ContactDofFace<dim>::normal() const
 {
   return axes.is_rotated() ? dim - 1 : axes.axis;
 }
 
 template <int dim>
-Tensor<1, dim> MomentFace<dim>::direction(const unsigned int component) const
+Tensor<1, dim> ContactDofFace<dim>::direction(const unsigned int component) const
 {
   Tensor<1, dim> result;
   if (axes.is_rotated())
@@ -57,8 +57,8 @@ Tensor<1, dim> MomentFace<dim>::direction(const unsigned int component) const
   return result;
 }
 
-template struct ContactMoment<2>;
-template struct ContactMoment<3>;
-template struct MomentFace<2>;
-template struct MomentFace<3>;
+template struct ContactDof<2>;
+template struct ContactDof<3>;
+template struct ContactDofFace<2>;
+template struct ContactDofFace<3>;
 } // namespace hpvi

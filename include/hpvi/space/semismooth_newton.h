@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_moment_newton_h
-#define hpvi_moment_newton_h
+#ifndef hpvi_semismooth_newton_h
+#define hpvi_semismooth_newton_h
 
 #include <hpvi/space/augmented_lagrangian.h>
 
@@ -23,7 +23,7 @@ struct NewtonReport
   unsigned int tresca_problems = 0; ///< of a law that knows the pressure, see FrictionIteration
   double contraction = 0;           ///< of these, as far as seen
   unsigned int n_slipping = 0;      ///< discs where contact is closed, of all processes
-  unsigned int n_pressing = 0;      ///< moments on which a pressure acts, likewise
+  unsigned int n_pressing = 0;      ///< contact dofs on which a pressure acts, likewise
   double residual = 0;              ///< relative to the load vector
   double error = 0;                 ///< estimated, in the energy norm
 
@@ -40,7 +40,7 @@ struct NewtonSettings
 };
 
 /**
- * Minimises `1/2 v'A v - f'v + sum_k G_k |m_k|` over v, m_k its moments at disc k, under `m_k <= u_0` where a
+ * Minimises `1/2 v'A v - f'v + sum_k G_k |m_k|` over v, m_k its contact dofs at disc k, under `m_k <= u_0` where a
  * pressure acts, by a semismooth Newton method: with `r = f - A v`, `lambda_k = r_k/G_k` and
  * `z_k = lambda_k + c_k (m_k - u_0)` the condition is `lambda = P(z)`, P the projection onto unit
  * discs and half lines. Where |z| <= 1 a disc sticks, m = 0, and where z > 0 a pressure holds m = u_0 (the
@@ -52,17 +52,17 @@ struct NewtonSettings
  * symmetric and positive; under a past slip H_k u_0 joins the right-hand side. A step between two admissible fields that raises the energy is shortened to its minimum along
  * the step; where one of them penetrates the foundation energies do not compare.
  * Hueber, Stadler and Wohlmuth (2008) have the same function of lambda and u with multipliers as unknowns;
- * here they are gone, because moments make the matrix of contact diagonal.
+ * here they are gone, because contact dofs make the matrix of contact diagonal.
  *
  * Where that takes too many steps, and where many discs have no start, AugmentedLagrangian takes over. What is
  * said of m_k under friction holds of `m_k - u_0`, u_0 the past slip.
  */
 template <int dim>
-class MomentNewton
+class SemismoothNewton
 {
 public:
-  MomentNewton(const MomentSpace<dim> &space, const PrimalSystem<dim> &system,
-               MomentMatrix<dim> &matrix);
+  SemismoothNewton(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
+                   NewtonMatrix<dim> &matrix);
 
   /**
    * Starts where v and lambda are, or where @p lambda is empty with all discs sticking and all contact closed, and stops where
@@ -76,7 +76,7 @@ public:
       DistributedVector &v, std::vector<ContactVector<dim>> &lambda, const NewtonSettings &settings,
       const std::function<void(const NewtonReport &)> &heard = [](const NewtonReport &) {});
 
-  /** From here on G_k, of each moment; at first those of the space. */
+  /** From here on G_k, of each contact dof; at first those of the space. */
   void take_weights(const std::vector<double> &weights);
 
   /** Where v and @p lambda are, in the words of solve(): its residual and its error. Collective. */
@@ -98,10 +98,10 @@ private:
   double gap(const DistributedVector &v, unsigned int k) const;
   Residual residual(const DistributedVector &v, bool keep_lambda);
   DistributedVector off_contact() const;
-  std::vector<MomentState<dim>> states(bool all_held) const;
-  void hold(DistributedVector &v, const std::vector<MomentState<dim>> &states) const;
+  std::vector<ContactDofState<dim>> states(bool all_held) const;
+  void hold(DistributedVector &v, const std::vector<ContactDofState<dim>> &states) const;
   bool penetrates(const DistributedVector &v, double force) const;
-  DistributedVector right_hand_side(const std::vector<MomentState<dim>> &states) const;
+  DistributedVector right_hand_side(const std::vector<ContactDofState<dim>> &states) const;
   double friction(const DistributedVector &v, const DistributedVector &step, double length) const;
   bool shorten(DistributedVector &v, const DistributedVector &old, double load) const;
   double error(double gap);
@@ -109,13 +109,13 @@ private:
                           unsigned int step) const;
   bool is_exact(const NewtonSettings &settings, const Residual &now, NewtonReport &report);
   Residual augment(DistributedVector &v, NewtonReport &report);
-  void count(const std::vector<MomentState<dim>> &states, NewtonReport &report) const;
+  void count(const std::vector<ContactDofState<dim>> &states, NewtonReport &report) const;
 
-  const MomentSpace<dim> &space;
+  const PrimalSpace<dim> &space;
   const PrimalSystem<dim> &system;
-  MomentMatrix<dim> &matrix;
-  std::vector<double> weights; ///< G of each moment
-  std::vector<double> c;       ///< of each moment [1/length; of a pressure stress/length]
+  NewtonMatrix<dim> &matrix;
+  std::vector<double> weights; ///< G of each contact dof
+  std::vector<double> c;       ///< of each contact dof [1/length; of a pressure stress/length]
   std::vector<ContactVector<dim>> lambda, z;
   double previous = 0;                                ///< norm of the residual before the last step
   DistributedVector r;                                ///< f - A v of the last residual()

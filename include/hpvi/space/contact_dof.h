@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_contact_moment_h
-#define hpvi_contact_moment_h
+#ifndef hpvi_contact_dof_h
+#define hpvi_contact_dof_h
 
 #include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/friction_limit.h>
@@ -23,18 +23,18 @@ template <int dim>
 using ContactVector = dealii::Tensor<1, dim - 1>;
 
 /**
- * What acts at one Gauss point of a contact face against the moment m of the displacement, by a multiplier
+ * What acts at one Gauss point of a contact face against the contact dof m of the displacement, by a multiplier
  * in a convex set whose force is `G lambda`:
  *
  *     friction   G |m - u_0|             |lambda| <= 1, a disc     G = g(x_k) int psi_k
  *     pressure   m <= u_0, else infinity  lambda >= 0 [stress]      G = int psi_k
  *     reaction   m = u_0, else infinity   lambda of any sign        likewise
  *
- * The gap u_0 is a moment as well, of friction that of the load step before. Where the law of friction knows the pressure, `g(x_k)` is its limit for that of the
+ * The gap u_0 is a contact dof as well, of friction that of the load step before. Where the law of friction knows the pressure, `g(x_k)` is its limit for that of the
  * #partner, and a reaction is the pressure of bilateral contact.
  */
 template <int dim>
-struct ContactMoment
+struct ContactDof
 {
   enum class Kind
   {
@@ -51,10 +51,10 @@ struct ContactMoment
   double weight = 0;           ///< G [force], of a pressure [area]
   ContactVector<dim> gap;      ///< u_0, of friction the past slip [length]
   double sign = 1;             ///< of the outer normal along its unknown, of a pressure
-  std::array<unsigned int, dim - 1> unknowns; ///< of its moments among those of this process
+  std::array<unsigned int, dim - 1> unknowns; ///< of its contact dofs among those of this process
 
   FrictionLimit limit; ///< of friction
-  /** Of friction whose law knows the pressure: that of the same point, in MomentSpace::contact; else invalid. */
+  /** Of friction whose law knows the pressure: that of the same point, in PrimalSpace::contact; else invalid. */
   unsigned int partner = dealii::numbers::invalid_unsigned_int;
 
   bool is_friction() const
@@ -86,17 +86,17 @@ struct ContactMoment
 };
 
 /**
- * A face with moments, those of its Gauss points one after the other from #friction and #pressure on. The unknowns at an inner
- * node are components along the axes of coordinates; where the normal is along none of these they are, all of them moments,
+ * A face with contact dofs, those of its Gauss points one after the other from #friction and #pressure on. The unknowns at an inner
+ * node are components along the axes of coordinates; where the normal is along none of these they are, all of them contact dofs,
  * those along the tangents and the normal.
  */
 template <int dim>
-struct MomentFace
+struct ContactDofFace
 {
   typename dealii::DoFHandler<dim>::active_cell_iterator cell;
   unsigned int face;
   ContactAxes<dim> axes;
-  std::shared_ptr<const FaceMoments> own =
+  std::shared_ptr<const FaceContactDofs> own =
       nullptr; ///< null: those of the unit face, its measure is constant
   unsigned int friction = dealii::numbers::invalid_unsigned_int; ///< which means that there is none
   unsigned int pressure = dealii::numbers::invalid_unsigned_int; ///< likewise
@@ -111,12 +111,12 @@ struct MomentFace
     return pressure != dealii::numbers::invalid_unsigned_int;
   }
 
-  unsigned int first() const ///< of its moments
+  unsigned int first() const ///< of its contact dofs
   {
     return has_friction() ? friction : pressure;
   }
 
-  std::vector<unsigned int> components() const; ///< which of those at inner nodes are moments
+  std::vector<unsigned int> components() const; ///< which of those at inner nodes are contact dofs
 
   unsigned int tangential(unsigned int s) const; ///< the component of a tangent
   unsigned int normal() const;                   ///< the component of the normal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/space/moment_transform.h>
+#include <hpvi/space/contact_dof_transform.h>
 
 #include <map>
 
@@ -8,9 +8,9 @@ namespace hpvi
 using namespace dealii;
 
 template <typename Number>
-void MomentTransform<Number>::resolve(const MomentSpace<3> &space, const Vector &pattern,
-                                      const types::global_dof_index dof,
-                                      const std::function<void(unsigned int, double)> &take)
+void ContactDofTransform<Number>::resolve(const PrimalSpace<3> &space, const Vector &pattern,
+                                          const types::global_dof_index dof,
+                                          const std::function<void(unsigned int, double)> &take)
 {
   const Utilities::MPI::Partitioner &partitioner = *pattern.get_partitioner();
   if (!space.constraints.is_constrained(dof))
@@ -21,23 +21,23 @@ void MomentTransform<Number>::resolve(const MomentSpace<3> &space, const Vector 
 }
 
 template <typename Number>
-MomentTransform<Number>::MomentTransform(const MomentSpace<3> &space, const Vector &pattern)
+ContactDofTransform<Number>::ContactDofTransform(const PrimalSpace<3> &space, const Vector &pattern)
 {
   if (space.faces.empty())
     return;
-  n = space.tables.n_moments();
-  const auto add_matrices = [this](const FaceMoments &moments)
+  n = space.tables.n_contact_dofs();
+  const auto add_matrices = [this](const FaceContactDofs &contact_dofs)
   {
     matrices.emplace_back();
     for (unsigned int k = 0; k < n; ++k)
       for (unsigned int j = 0; j < n; ++j)
       {
-        matrices.back().M.push_back(moments.M(k, j));
-        matrices.back().M_inverse.push_back(moments.M_inverse(k, j));
+        matrices.back().M.push_back(contact_dofs.M(k, j));
+        matrices.back().M_inverse.push_back(contact_dofs.M_inverse(k, j));
       }
   };
-  add_matrices(space.tables.moments);
-  for (const MomentFace<3> &face : space.faces)
+  add_matrices(space.tables.contact_dofs);
+  for (const ContactDofFace<3> &face : space.faces)
   {
     if (face.own)
       add_matrices(*face.own);
@@ -46,13 +46,13 @@ MomentTransform<Number>::MomentTransform(const MomentSpace<3> &space, const Vect
 }
 
 template <typename Number>
-void MomentTransform<Number>::add(const MomentSpace<3> &space, const Vector &pattern,
-                                  const MomentFace<3> &face, const unsigned int matrix)
+void ContactDofTransform<Number>::add(const PrimalSpace<3> &space, const Vector &pattern,
+                                      const ContactDofFace<3> &face, const unsigned int matrix)
 {
   const BoxTables<3> &tables = space.tables;
-  const FaceMoments &moments = space.moments_on(face);
-  FullMatrix<double> C(n, moments.W.n());
-  moments.M_inverse.mmult(C, moments.W);
+  const FaceContactDofs &contact_dofs = space.contact_dofs_on(face);
+  FullMatrix<double> C(n, contact_dofs.W.n());
+  contact_dofs.M_inverse.mmult(C, contact_dofs.W);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   face.cell->get_dof_indices(dofs);
   if (face.axes.is_rotated())
@@ -89,7 +89,7 @@ void MomentTransform<Number>::add(const MomentSpace<3> &space, const Vector &pat
 
 /** Components along the directions of faces to those along axes, or back. */
 template <typename Number>
-void MomentTransform<Number>::turn(Vector &v, const bool to_axes) const
+void ContactDofTransform<Number>::turn(Vector &v, const bool to_axes) const
 {
   for (const Turn &turn : turns)
     for (unsigned int k = 0; k < n; ++k)
@@ -108,7 +108,7 @@ void MomentTransform<Number>::turn(Vector &v, const bool to_axes) const
 // With `C = -M^-1 W` over the rim T is `u_inner = M^-1 m + C u_rim`, its inverse `m = M (u_inner - C u_rim)`.
 template <typename Number>
 template <bool inverse>
-void MomentTransform<Number>::transform(Vector &v) const
+void ContactDofTransform<Number>::transform(Vector &v) const
 {
   if (!inverse)
     turn(v, true);
@@ -143,7 +143,7 @@ void MomentTransform<Number>::transform(Vector &v) const
 
 template <typename Number>
 template <bool inverse>
-void MomentTransform<Number>::transform_transposed(Vector &r) const
+void ContactDofTransform<Number>::transform_transposed(Vector &r) const
 {
   if (inverse)
     turn(r, true);
@@ -176,7 +176,7 @@ void MomentTransform<Number>::transform_transposed(Vector &r) const
 }
 
 template <typename Number>
-void MomentTransform<Number>::to_nodes(Vector &v, std::vector<Number> *const kept) const
+void ContactDofTransform<Number>::to_nodes(Vector &v, std::vector<Number> *const kept) const
 {
   v.update_ghost_values();
   if (kept)
@@ -189,7 +189,7 @@ void MomentTransform<Number>::to_nodes(Vector &v, std::vector<Number> *const kep
 }
 
 template <typename Number>
-void MomentTransform<Number>::restore(Vector &v, const std::vector<Number> &kept) const
+void ContactDofTransform<Number>::restore(Vector &v, const std::vector<Number> &kept) const
 {
   for (std::size_t k = 0; k < inner.size(); ++k)
     v.local_element(inner[k]) = kept[k];
@@ -197,14 +197,14 @@ void MomentTransform<Number>::restore(Vector &v, const std::vector<Number> &kept
 }
 
 template <typename Number>
-void MomentTransform<Number>::to_nodes_transposed(Vector &r) const
+void ContactDofTransform<Number>::to_nodes_transposed(Vector &r) const
 {
   transform_transposed<false>(r);
   r.compress(VectorOperation::add);
 }
 
 template <typename Number>
-void MomentTransform<Number>::to_moments(Vector &v) const
+void ContactDofTransform<Number>::to_moments(Vector &v) const
 {
   v.update_ghost_values();
   transform<true>(v);
@@ -212,12 +212,12 @@ void MomentTransform<Number>::to_moments(Vector &v) const
 }
 
 template <typename Number>
-void MomentTransform<Number>::to_moments_transposed(Vector &r) const
+void ContactDofTransform<Number>::to_moments_transposed(Vector &r) const
 {
   transform_transposed<true>(r);
   r.compress(VectorOperation::add);
 }
 
-template class MomentTransform<double>;
-template class MomentTransform<float>;
+template class ContactDofTransform<double>;
+template class ContactDofTransform<float>;
 } // namespace hpvi
