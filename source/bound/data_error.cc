@@ -138,10 +138,10 @@ struct Missed
 {
   std::array<Vector<double>, 2> value; ///< Legendre coefficients
   std::array<double, 2>
-      unread{}; ///< by how much the polynomial differs from the data between its nodes
+      oscillation{}; ///< by how much the polynomial differs from the data between its nodes
   Point<2> unread_at;
 
-  /** A polynomial that vanishes at both ends and oscillates by `unread`, beyond the degrees of value. */
+  /** A polynomial that vanishes at both ends and oscillates by `oscillation`, beyond the degrees of value. */
   std::array<Vector<double>, 2> oscillation() const;
 };
 
@@ -151,8 +151,8 @@ std::array<Vector<double>, 2> Missed::oscillation() const
   std::array<Vector<double>, 2> result{{Vector<double>(n + 2), Vector<double>(n + 2)}};
   for (unsigned int c = 0; c < 2; ++c) // P_{n+1} - P_{n-1}
   {
-    result[c][n + 1] = unread[c] / legendre::at_end(n + 1, true);
-    result[c][n - 1] = -unread[c] / legendre::at_end(n - 1, true);
+    result[c][n + 1] = oscillation[c] / legendre::at_end(n + 1, true);
+    result[c][n - 1] = -oscillation[c] / legendre::at_end(n - 1, true);
   }
   return result;
 }
@@ -191,12 +191,12 @@ Missed missed_displacement(const Solution<2> &solution, const EquilibratedStress
     tables.from_nodes(n - 1).vmult(result.value[c], at_nodes);
     const std::vector<double> fine(result.value[c].begin(), result.value[c].end());
     const double round_off = 1e-13 * at_nodes.linfty_norm(),
-                 before = std::max(result.unread[0], result.unread[1]);
+                 before = std::max(result.oscillation[0], result.oscillation[1]);
     for (const double s : between)
       if (const double missed = std::abs(legendre::evaluate(fine, 2 * s - 1) - data(s));
-          missed > std::max(round_off, result.unread[c]))
+          missed > std::max(round_off, result.oscillation[c]))
       {
-        result.unread[c] = missed;
+        result.oscillation[c] = missed;
         if (missed > before)
           result.unread_at = map.point(point_on_face<2>(face, Point<1>(s)));
       }
@@ -321,11 +321,11 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
                             solution.tables) +
                     spring_energy(solution, edge, map, part)));
       lift_work += boundary_work(solution, stress, e, missed);
-      const double most = std::max(missed.unread[0], missed.unread[1]);
+      const double most = std::max(missed.oscillation[0], missed.oscillation[1]);
       unread_work += most * absolute_traction(stress, e);
-      if (most > unread)
+      if (most > oscillation)
       {
-        unread = most;
+        oscillation = most;
         unread_at = missed.unread_at;
       }
     }

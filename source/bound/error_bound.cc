@@ -326,7 +326,7 @@ ErrorBounds::stress_of_mixed_problem(const Solution<2> &solution,
 // $\sigma(u_N)$ than the other; then it alone, unless it has not come nearer since the step before.
 std::unique_ptr<const ErrorBounds::AdmissibleStress>
 ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2> &discretisation,
-                            std::unique_ptr<LinearSolver> factor, double &own_stress)
+                            std::unique_ptr<LinearSolver> factor, double &hysteresis)
 {
   const std::vector<unsigned int> &degrees = solution.displacement_space.degrees();
   const bool may_lock = solution.scene.is_nearly_incompressible() && !has_distorted_cells(solution);
@@ -337,11 +337,11 @@ ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2>
     own = std::make_unique<const AdmissibleStress>(solution, std::nullopt, discretisation,
                                                    factor.get(), cache);
   const double eta = own ? own->eta() : std::numeric_limits<double>::infinity();
-  if (!may_lock || eta < std::exchange(own_stress, eta))
+  if (!may_lock || eta < std::exchange(hysteresis, eta))
     return own;
   auto stable = stress_of_mixed_problem(solution, std::move(factor));
   if (!(eta < 1.1 * stable->eta()))
-    own_stress = 0.;
+    hysteresis = 0.;
   return eta < stable->eta() ? std::move(own) : std::move(stable);
 }
 
@@ -351,12 +351,12 @@ ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2>
 // is known for a $w$ in $V_N$ alone.
 ErrorBound ErrorBounds::compute(const Solution<2> &solution,
                                 const Discretisation<2> &discretisation,
-                                std::unique_ptr<LinearSolver> factor, const double own_stress)
+                                std::unique_ptr<LinearSolver> factor, const double hysteresis)
 try
 {
   ErrorBound result;
-  result.own_stress = own_stress;
-  const auto made = nearest_stress(solution, discretisation, std::move(factor), result.own_stress);
+  result.hysteresis = hysteresis;
+  const auto made = nearest_stress(solution, discretisation, std::move(factor), result.hysteresis);
   const EquilibratedStress &stress = made->stress;
   const auto correct = [&](EdgeBubbles *const with, std::optional<ContactCorrection<2>> &result)
   { result.emplace(solution, discretisation, made->friction, made->pressure, with); };

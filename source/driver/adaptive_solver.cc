@@ -59,7 +59,7 @@ AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, const RunState<dim>
     : AdaptiveSolver(scene, communicator)
 {
   const ThreadPool pool = thread_pool_of(stages->scene, communicator); // as in run()
-  stages->hear([](const Progress &) {});
+  stages->set_callback([](const Progress &) {});
   state.require_scene(scene, hpvi::n_processes(communicator));
   // Where a load step has ended nothing is left to mark, and element matrices are the next one's.
   if (!state.loads)
@@ -80,7 +80,7 @@ RunState<dim> AdaptiveSolver<dim>::state(const std::optional<FinishedLoads> &fin
     all.entries = RunState<dim>::entries_of(all.scene, n_processes(all.backend->communicator));
   return {"the run state",
           all.entries,
-          finished ? all.backend->trail() : all.refinements,
+          finished ? all.backend->refinement_history() : all.refinements,
           all.backend->values(),
           finished ? History<dim>() : all.history,
           finished};
@@ -94,10 +94,10 @@ std::optional<ReducedPart<dim>> AdaptiveSolver<dim>::reduced() const
 
 /** Before anything is reported or written. */
 template <int dim>
-void AdaptiveSolver<dim>::prepare(const Announce &about_to)
+void AdaptiveSolver<dim>::prepare(const Announce &on_stage)
 {
   const ThreadPool pool = thread_pool_of(stages->scene, stages->backend->communicator);
-  stages->hear(about_to);
+  stages->set_callback(on_stage);
   stages->backend->discretise();
 }
 
@@ -114,12 +114,12 @@ void run_steps(StepStages<dim> &stages,
   for (bool finished = false; !finished;)
   {
     stages.solve();
-    stages.judge();
-    StepReport<dim> step = stages.tell();
+    stages.estimate();
+    StepReport<dim> step = stages.report();
     step.stopped_by = stages.end_of_run();
     if (stages.asks_for_bound(step))
     {
-      stages.close_bound();
+      stages.compute_bound();
       stages.add_bound(step);
       stages.count(step);
       step.stopped_by = stages.end_of_run();
@@ -137,10 +137,10 @@ void run_steps(StepStages<dim> &stages,
 
 template <int dim>
 void AdaptiveSolver<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
-                              const Announce &about_to)
+                              const Announce &on_stage)
 {
   const ThreadPool pool = thread_pool_of(stages->scene, stages->backend->communicator);
-  stages->hear(about_to);
+  stages->set_callback(on_stage);
   try
   {
     run_steps(*stages, finished_step);

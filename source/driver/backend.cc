@@ -46,8 +46,8 @@ Backend<dim>::Backend(const Scene<dim> &scene, MPI_Comm communicator)
 template <int dim>
 void Backend<dim>::begin(const std::string &stage, const std::string &note) const
 {
-  if (about_to)
-    about_to(stage, note);
+  if (on_stage)
+    on_stage(stage, note);
 }
 
 template <int dim>

@@ -270,7 +270,7 @@ void RunState<dim>::write(std::ostream &out) const
   {
     content << text(step.estimate) << ' ' << text(step.relative_estimate) << ' '
             << text(step.relative_bound) << ' ' << text(step.relative_half_width) << ' '
-            << text(step.seconds) << ' ' << step.lacks_condition << ' ' << text(step.own_stress);
+            << text(step.seconds) << ' ' << step.lacks_condition << ' ' << text(step.hysteresis);
     write_extrema(content, step.extrema);
     write_claims(content, step.claims, step.contradiction);
   }
@@ -306,7 +306,7 @@ RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
     step.relative_half_width = reader.number<double>();
     step.seconds = reader.number<double>();
     step.lacks_condition = reader.number<unsigned int>() != 0;
-    step.own_stress = reader.number<double>();
+    step.hysteresis = reader.number<double>();
     step.extrema = reader.template extrema<dim>();
     reader.claims(step.claims, step.contradiction);
   }

@@ -252,7 +252,7 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
   {
     const Solution<dim> &solution = part.solution;
     const Vector<double> &loads = part.system.loads();
-    const Work done = past ? work(carry(past->solution, *solution.spaces), solution, loads)
+    const Work done = past ? work(interpolate(past->solution, *solution.spaces), solution, loads)
                            : work_from_rest(solution, loads);
     count(done);
     const double initial =
@@ -300,18 +300,18 @@ std::optional<RunState<dim>> LoadHistory<dim>::state() const
 }
 
 template <int dim>
-void LoadHistory<dim>::prepare(const std::function<void(const Progress &)> &about_to)
+void LoadHistory<dim>::prepare(const std::function<void(const Progress &)> &on_stage)
 {
-  evolution->solver->prepare(about_to);
+  evolution->solver->prepare(on_stage);
 }
 
 template <int dim>
 void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &finished_step,
-                           const std::function<void(const Progress &)> &about_to)
+                           const std::function<void(const Progress &)> &on_stage)
 {
   if (!evolution->scene.has_load_history())
   {
-    evolution->solver->run(finished_step, about_to);
+    evolution->solver->run(finished_step, on_stage);
     return;
   }
   const auto take = [&](const StepReport<dim> &step)
@@ -323,7 +323,7 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
   };
   const auto announce = [&](const Progress &progress)
   {
-    about_to({progress.step + evolution->finished.n_steps,
+    on_stage({progress.step + evolution->finished.n_steps,
               evolution->place() + ": " + progress.stage, progress.note});
   };
   try

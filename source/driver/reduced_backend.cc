@@ -140,7 +140,7 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &las
                                     const PastSlip<dim> &past)
     : ReducedBackend(scene, std::make_shared<Kept>(scene, last.kept->tables))
 {
-  take_over(last);
+  transfer_from(last);
   look_at_loads(1);
   past_slip = past;
   is_load_step = true;
@@ -155,10 +155,10 @@ template <int dim>
 ReducedBackend<dim>::ReducedBackend(ReducedBackend &here, const Refinement &refinement)
     : ReducedBackend(here.scene, here.kept)
 {
-  take_over(here);
+  transfer_from(here);
   loads = here.loads;
   finer_loads = here.finer_loads;
-  seen_late = here.seen_late;
+  late_load = here.late_load;
   past_slip = here.past_slip;
   is_load_step = here.is_load_step;
   here.factored.reset(); // there may not be room for two
@@ -167,7 +167,7 @@ ReducedBackend<dim>::ReducedBackend(ReducedBackend &here, const Refinement &refi
 
 /** Mesh and start. */
 template <int dim>
-void ReducedBackend<dim>::take_over(const ReducedBackend &last)
+void ReducedBackend<dim>::transfer_from(const ReducedBackend &last)
 {
   mesh = last.mesh;
   cell_degrees = last.cell_degrees;
@@ -199,7 +199,7 @@ void ReducedBackend<dim>::assemble()
   missing = missed_loads(*discretisation, *loads);
   if (missing.empty())
     return;
-  seen_late = missing;
+  late_load = missing;
   look_at_loads(4); // a closer look
   build();
   missing = missed_loads(*discretisation, *loads);
@@ -311,7 +311,7 @@ void ReducedBackend<dim>::solve()
   times.recover += timer.wall_time() - program.seconds;
   if (drop_round_off(*discretisation, algebraic.energy_product, program.z, u))
     algebraic = {};
-  keep_start(program.z, motions ? motions->in_basis(program.motion) : Vector<double>());
+  keep_warm_start(program.z, motions ? motions->in_basis(program.motion) : Vector<double>());
   if (needs_factor_again())
     kept_factor = std::make_unique<LinearSolver>(std::move(factored->solver));
   if (kept_factor || !is_load_step)
@@ -341,7 +341,7 @@ void ReducedBackend<dim>::take(Vector<double> u, const Vector<double> &z)
 
 /** The next step begins where this one ends. */
 template <int dim>
-void ReducedBackend<dim>::keep_start(const Vector<double> &z, const Vector<double> &moved)
+void ReducedBackend<dim>::keep_warm_start(const Vector<double> &z, const Vector<double> &moved)
 {
   const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   if (contact_space.n_multipliers() == 0 || !scene.solver.qp_warm_start)
@@ -355,7 +355,7 @@ void ReducedBackend<dim>::keep_start(const Vector<double> &z, const Vector<doubl
 // The guaranteed bound needs the whole discrete problem, not only its solution. Where there is none its
 // reason is kept, since "none" without a reason is no answer.
 template <int dim>
-BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
+BoundOfStep ReducedBackend<dim>::bound(const double hysteresis)
 {
   BoundOfStep result;
   result.missing = scene.error_bound ? solution->spaces->no_error_bound(scene)
@@ -365,7 +365,7 @@ BoundOfStep ReducedBackend<dim>::bound(const double own_stress)
   if (!result.missing.empty())
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
-  const ErrorBound bound = bound_beside_forces(own_stress);
+  const ErrorBound bound = bound_beside_forces(hysteresis);
   result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
   result.imbalance = bound.imbalance;
   if (result.missing.empty())
@@ -429,9 +429,9 @@ Warnings ReducedBackend<dim>::warnings(const std::vector<ContactState<dim>> &con
 {
   Warnings result = joined(multiplier_warnings(*solution, contact, algebraic, program.coulomb),
                            unseen_warnings(*solution));
-  if (!seen_late.empty())
+  if (!late_load.empty())
     result.push_back({WarningKind::load, 0.,
-                      seen_late + "; steps before knew nothing of it: put vertices there"});
+                      late_load + "; steps before knew nothing of it: put vertices there"});
   if (const std::string note = dense_note(); !note.empty())
     result.push_back({WarningKind::dense_work, 0., note});
   return result;
@@ -466,7 +466,7 @@ bool ReducedBackend<dim>::restore(const SolutionValues &values)
     build();
   }
   levels.pop_back();
-  keep_start(values.z, values.motion);
+  keep_warm_start(values.z, values.motion);
   kept->resultant_intervals.begin_with(levels);
   take(values.u, values.z);
   return true;

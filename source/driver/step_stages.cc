@@ -80,7 +80,7 @@ void take_bound(const BoundOfStep &bound, StepReport<dim> &step, PastStep<dim> &
   if (bound.bound)
   {
     past.relative_bound = part_of(bound.bound->total, step.energies.norm);
-    past.own_stress = bound.bound->own_stress;
+    past.hysteresis = bound.bound->hysteresis;
   }
   step.relative_bound = past.relative_bound;
 }
@@ -108,9 +108,9 @@ std::vector<double> of_all_cells(const ErrorEstimate &estimate, const Field<dim>
 
 // Every stage announces itself before it begins; the library itself prints nothing.
 template <int dim>
-void StepStages<dim>::hear(const std::function<void(const Progress &)> &listener)
+void StepStages<dim>::set_callback(const std::function<void(const Progress &)> &listener)
 {
-  about_to = listener;
+  on_stage = listener;
   announce(*backend);
 }
 
@@ -119,8 +119,8 @@ template <int dim>
 void StepStages<dim>::announce(Backend<dim> &of)
 {
   const unsigned int number = history.size() + 1;
-  of.about_to = [this, number](const std::string &stage, const std::string &note) {
-    about_to({number, stage, note});
+  of.on_stage = [this, number](const std::string &stage, const std::string &note) {
+    on_stage({number, stage, note});
   };
 }
 
@@ -140,7 +140,7 @@ void StepStages<dim>::solve()
 // is at most, and costs half of a step; where the last one alone shall have it, it waits for the limits.
 // Numbers that double precision does not support any more end the run here, with one line, before anybody reads them.
 template <int dim>
-void StepStages<dim>::judge()
+void StepStages<dim>::estimate()
 {
   estimate = backend->estimate();
   norms = hpvi::norms(estimate, backend->communicator);
@@ -158,9 +158,9 @@ void StepStages<dim>::judge()
 
 /** Of the step before. */
 template <int dim>
-double StepStages<dim>::own_stress() const
+double StepStages<dim>::hysteresis() const
 {
-  return history.size() < 2 ? 0. : history[history.size() - 2].own_stress;
+  return history.size() < 2 ? 0. : history[history.size() - 2].hysteresis;
 }
 
 template <int dim>
@@ -177,7 +177,7 @@ bool StepStages<dim>::asks_for_bound(const StepReport<dim> &step) const
 }
 
 template <int dim>
-void StepStages<dim>::close_bound()
+void StepStages<dim>::compute_bound()
 {
   is_bound_open = false;
   if (const std::string known = first_contradiction(history, history.size() - 1); !known.empty())
@@ -186,14 +186,14 @@ void StepStages<dim>::close_bound()
     bound.missing = no_guarantee(known);
   }
   else
-    bound = backend->bound(has_late_bound() ? 0. : own_stress());
+    bound = backend->bound(has_late_bound() ? 0. : hysteresis());
 }
 
 template <int dim>
 void StepStages<dim>::bound_unless_late()
 {
   if (is_bound_open && !has_late_bound())
-    close_bound();
+    compute_bound();
 }
 
 // @sect3{Mark}
@@ -261,7 +261,7 @@ void StepStages<dim>::resume(const RunState<dim> &state)
   std::string limit = end_of_run();
   if (is_bound_open && limit == "round-off") // what u_N misses of the data may be more
   {
-    close_bound();
+    compute_bound();
     limit = end_of_run();
   }
   if (!limit.empty())
@@ -301,7 +301,7 @@ bool StepStages<dim>::goes_on() const
 // The way to the next step needs no bound of this one, unless cells are marked by it. Where there are threads for both, and the
 // run goes on for sure, the next step is solved while this one is told: each has parts for one thread, at which the other waited.
 template <int dim>
-StepReport<dim> StepStages<dim>::tell()
+StepReport<dim> StepStages<dim>::report()
 {
   is_bound_open = true;
   bound = open_bound();
@@ -319,7 +319,7 @@ StepReport<dim> StepStages<dim>::tell()
   if (next)
   {
     announce(*next);
-    ahead = std::make_unique<StepAhead<dim>>(std::move(next), *backend, tell_all);
+    ahead = std::make_unique<PipelinedStep<dim>>(std::move(next), *backend, tell_all);
   }
   else
     tell_all();
@@ -417,7 +417,8 @@ void StepStages<dim>::conclude(StepReport<dim> &step)
   const std::vector<StressSample<dim>> samples = stress_samples(step.field);
   std::vector<StressSample<dim>> growing = growing_extrema(extrema);
   // The mesh comes from load steps before; on one process, for peaks of others are not known alike on all.
-  if (backend->trail().size() >= history.size() && n_processes(backend->communicator) == 1)
+  if (backend->refinement_history().size() >= history.size() &&
+      n_processes(backend->communicator) == 1)
     for (const StressSample<dim> &peak : extrema_of_rings(step.extrema, samples, step.field))
       if (std::none_of(growing.begin(), growing.end(),
                        [&](const auto &known)
@@ -465,11 +466,11 @@ std::string StepStages<dim>::end_of_run() const
 // @sect3{The next step beside this one}
 //
 template <int dim>
-StepAhead<dim>::StepAhead(std::unique_ptr<Backend<dim>> next_step, Backend<dim> &here,
-                          const std::function<void()> &tell)
+PipelinedStep<dim>::PipelinedStep(std::unique_ptr<Backend<dim>> next_step, Backend<dim> &here,
+                                  const std::function<void()> &report)
     : next(std::move(next_step))
 {
-  const auto about_to = std::exchange(here.about_to, nullptr);
+  const auto on_stage = std::exchange(here.on_stage, nullptr);
   const StageTimes before = std::exchange(here.times, {});
   double both = 0;
   {
@@ -478,7 +479,7 @@ StepAhead<dim>::StepAhead(std::unique_ptr<Backend<dim>> next_step, Backend<dim> 
                       [&](const unsigned int part)
                       {
                         if (part == 1)
-                          return tell();
+                          return report();
                         try
                         {
                           next->discretise();
@@ -494,19 +495,19 @@ StepAhead<dim>::StepAhead(std::unique_ptr<Backend<dim>> next_step, Backend<dim> 
   next->times *= share;
   here.times *= share;
   here.times += before;
-  here.about_to = about_to;
+  here.on_stage = on_stage;
 }
 
 template <int dim>
-std::unique_ptr<Backend<dim>> StepAhead<dim>::take()
+std::unique_ptr<Backend<dim>> PipelinedStep<dim>::take()
 {
   if (failure)
     std::rethrow_exception(failure);
   return std::move(next);
 }
 
-template class StepAhead<2>;
-template class StepAhead<3>;
+template class PipelinedStep<2>;
+template class PipelinedStep<3>;
 template struct StepStages<2>;
 template struct StepStages<3>;
 } // namespace hpvi

@@ -18,7 +18,7 @@ void multiply(const double factor, Numbers &...numbers)
 void take(const double b, const double root, ErrorBound &bound)
 {
   multiply(root, bound.total, bound.radius, bound.stress, bound.slip, bound.oscillation, bound.data,
-           bound.own_stress);
+           bound.hysteresis);
   multiply(b, bound.energy, bound.energy_below, bound.energy_above);
   for (double &square : bound.squares)
     square *= b;

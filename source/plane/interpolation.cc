@@ -98,7 +98,7 @@ Vector<double> interpolate(const Solution<dim> &coarse, const DisplacementSpace<
 }
 
 template <int dim>
-Solution<dim> carry(const Solution<dim> &coarse, const Spaces<dim> &finer)
+Solution<dim> interpolate(const Solution<dim> &coarse, const Spaces<dim> &finer)
 {
   const Degrees &degrees = finer.displacement_space.degrees();
   if (finer.mesh == coarse.spaces->mesh && degrees == coarse.displacement_space.degrees())
@@ -110,6 +110,6 @@ Solution<dim> carry(const Solution<dim> &coarse, const Spaces<dim> &finer)
               .values(spaces->contact_space, *finer.tables)};
 }
 
-template Solution<2> carry(const Solution<2> &, const Spaces<2> &);
+template Solution<2> interpolate(const Solution<2> &, const Spaces<2> &);
 template Vector<double> interpolate(const Solution<2> &, const DisplacementSpace<2> &);
 } // namespace hpvi

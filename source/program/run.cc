@@ -257,7 +257,7 @@ double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
 {
   const auto solver = state ? std::make_unique<LoadHistory<dim>>(scene, *state, MPI_COMM_WORLD)
                             : std::make_unique<LoadHistory<dim>>(scene, MPI_COMM_WORLD);
-  prepare(*solver, listener.about_to);
+  prepare(*solver, listener.on_stage);
   Output<dim> output(scene, directory, state ? state->n_steps() : 0, MPI_COMM_WORLD);
   listener.begun(output);
   try
@@ -269,7 +269,7 @@ double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
           output.write_step(step,
                             step.size.n_dofs <= largest_state ? solver->state() : std::nullopt);
         },
-        listener.about_to);
+        listener.on_stage);
   }
   catch (const Interruption &interruption)
   {
@@ -294,7 +294,7 @@ void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene
   const std::string loads = resultant_in_words(scene, is_primal);
   ProgressLine progress;
   Ending ending;
-  const auto about_to = [&](const Progress &stage)
+  const auto on_stage = [&](const Progress &stage)
   {
     stop_all_if_interrupted();
     progress.show(stage);
@@ -311,7 +311,7 @@ void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene
     print_row(step);
     ending.hear(step);
   };
-  ending.seconds_of_report = solve<dim>(state, scene, directory, {about_to, begun, finished});
+  ending.seconds_of_report = solve<dim>(state, scene, directory, {on_stage, begun, finished});
   progress.erase();
   print_end(scene, ending, directory);
 }

@@ -66,7 +66,7 @@ SweptRun SweptRun::solved(const Scene<dim> &scene, const std::string &directory)
   SweptRun run;
   bool has_begun = false;
   RunListener<dim> listener;
-  listener.about_to = [](const Progress &) { stop_if_interrupted(); };
+  listener.on_stage = [](const Progress &) { stop_if_interrupted(); };
   listener.begun = [&](const Output<dim> &) { has_begun = true; };
   listener.finished = [&](const StepReport<dim> &step) { run.warnings = texts(step.warnings); };
   try

@@ -597,21 +597,21 @@ TEST(ErrorBoundNearIncompressibility, ComparesTwoStressesUntilOneWillDo)
     const Solution<2> solution = lab.solve();
     std::vector<ErrorBound> result;
     ErrorBounds bounds;
-    for (const double own_stress : own_stresses)
-      result.push_back(bounds.compute(solution, lab.discretisation, nullptr, own_stress));
+    for (const double hysteresis : own_stresses)
+      result.push_back(bounds.compute(solution, lab.discretisation, nullptr, hysteresis));
     return result;
   };
   const std::vector<ErrorBound> locking = bounds_of(4, "4, 2", {0., any, 1e-20});
-  EXPECT_EQ(locking[0].own_stress, 0.);
+  EXPECT_EQ(locking[0].hysteresis, 0.);
   EXPECT_GT(locking[1].stress, 3. * locking[0].stress);
-  EXPECT_EQ(locking[1].own_stress, locking[1].stress);
+  EXPECT_EQ(locking[1].hysteresis, locking[1].stress);
   EXPECT_EQ(locking[2].stress, locking[0].stress); // farther than in the step before
   const std::vector<ErrorBound> free = bounds_of(8, "16, 8", {0., any});
-  EXPECT_EQ(free[1].own_stress, free[1].stress);
-  EXPECT_EQ(free[0].own_stress, free[1].stress);
+  EXPECT_EQ(free[1].hysteresis, free[1].stress);
+  EXPECT_EQ(free[0].hysteresis, free[1].stress);
   EXPECT_LE(free[0].stress, free[1].stress);
   EXPECT_LE(free[1].stress, 1.1 * free[0].stress);
-  EXPECT_EQ(bounds_of(2, "16, 8", {0.})[0].own_stress, 0.);
+  EXPECT_EQ(bounds_of(2, "16, 8", {0.})[0].hysteresis, 0.);
 }
 
 /** Where the body slips as it is, far from where slip ends, there is nothing for w to mend. */

@@ -237,11 +237,11 @@ TEST(ThreadsAtTheEnd, RefuseTheSamePoint)
             throw InputError("not at " + in_digits(x[0]) + ", " + in_digits(x[1]));
           return 0.01;
         }));
-    const auto about_to = [&](const Progress &progress)
+    const auto on_stage = [&](const Progress &progress)
     { is_refused = progress.stage.rfind("estimating", 0) == 0; };
     try
     {
-      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {}, about_to);
+      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {}, on_stage);
       messages.emplace_back("none");
     }
     catch (const InputError &error)

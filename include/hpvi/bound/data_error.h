@@ -44,7 +44,7 @@ public:
   double lift = 0;   ///< |d|_a
   double lift_work = 0;   ///< int (s n - G + k u_N) . d over the boundary [stress length^dim]
   double unread_work = 0; ///< what that may miss, because of
-  double unread =
+  double oscillation =
       0; ///< how far u_D and u_0 are from these polynomials between their nodes [length]
   dealii::Point<2> unread_at;
 

@@ -68,7 +68,7 @@ struct ErrorBound
   double imbalance = 0;
 
   /** Where u_N may lock: eta of the stress made of u_N, if that is as near as another; else 0. For the next step. */
-  double own_stress = 0;
+  double hysteresis = 0;
 
   std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
@@ -78,11 +78,11 @@ class ErrorBounds
 {
 public:
   /**
-   * no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand; @p own_stress:
-   * ErrorBound::own_stress of the step before.
+   * no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand; @p hysteresis:
+   * ErrorBound::hysteresis of the step before.
    */
   ErrorBound compute(const Solution<2> &solution, const Discretisation<2> &discretisation,
-                     std::unique_ptr<LinearSolver> factor = nullptr, double own_stress = 0);
+                     std::unique_ptr<LinearSolver> factor = nullptr, double hysteresis = 0);
 
 private:
   struct AdmissibleStress;
@@ -93,7 +93,7 @@ private:
   std::unique_ptr<const AdmissibleStress> nearest_stress(const Solution<2> &solution,
                                                          const Discretisation<2> &discretisation,
                                                          std::unique_ptr<LinearSolver> factor,
-                                                         double &own_stress);
+                                                         double &hysteresis);
 
   EquilibrationCache cache;
   EdgeBubbles bubbles;

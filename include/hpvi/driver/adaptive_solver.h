@@ -53,17 +53,17 @@ public:
    * The beginning of run(), up to the last that the first step asks the functions of the scene for. Throws
    * InputError where they are no good between the points at which check() has tried them.
    */
-  void prepare(const Announce &about_to = [](const Progress &) {});
+  void prepare(const Announce &on_stage = [](const Progress &) {});
 
   /**
-   * Runs until a limit of the scene is reached; @p about_to hears of every stage before it begins, and
+   * Runs until a limit of the scene is reached; @p on_stage hears of every stage before it begins, and
    * may throw to give up the step. With several threads it hears of the next step before @p finished_step has
    * this one, for one thread solves that meanwhile. Until it returns, in the callbacks too, dense algebra has
    * OneThread. Throws NumericalFailure.
    */
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,
-      const Announce &about_to = [](const Progress &) {});
+      const Announce &on_stage = [](const Progress &) {});
 
   /**
    * What it takes to go on after the step at hand; to be asked while its callback lasts. At the end of a load step with

@@ -112,8 +112,8 @@ public:
   virtual std::optional<ReducedPart<dim>> reduced() const; ///< none on another path
   virtual std::optional<PrimalPart<dim>> primal() const;   ///< likewise
 
-  /** @p own_stress: ErrorBound::own_stress of the step before. */
-  virtual BoundOfStep bound(double own_stress) = 0;
+  /** @p hysteresis: ErrorBound::hysteresis of the step before. */
+  virtual BoundOfStep bound(double hysteresis) = 0;
 
   /**
    * Sets the guaranteed intervals of @p forces, where there are any; returns why some have none. With the @p bound of
@@ -151,7 +151,7 @@ public:
   virtual std::unique_ptr<Backend> ahead(const Refinement &refinement);
 
   /** All refinements since the coarse mesh, those of discretise() among them. */
-  const std::vector<MeshMarks> &trail() const
+  const std::vector<MeshMarks> &refinement_history() const
   {
     return refined;
   }
@@ -162,7 +162,7 @@ public:
   virtual bool restore(const SolutionValues &values) = 0;
 
   /**
-   * The end of a load step, in the place of all that led to it: @p marks are the trail() that it had, @p values its
+   * The end of a load step, in the place of all that led to it: @p marks are the refinement_history() that it had, @p values its
    * values(); false where they are those of another mesh.
    */
   virtual bool restore_end(const std::vector<MeshMarks> &marks, const SolutionValues &values);
@@ -172,7 +172,7 @@ public:
                                                   const PastSlip<dim> &past) = 0;
 
   /** Hears of each stage before it begins, with a note on it; may throw to give up. */
-  std::function<void(const std::string &stage, const std::string &note)> about_to;
+  std::function<void(const std::string &stage, const std::string &note)> on_stage;
 
   const Scene<dim> &scene;
   const MPI_Comm communicator;
@@ -185,7 +185,7 @@ protected:
   /** Refines by each of @p marks in turn; false where they are those of another mesh. */
   bool follow(const std::vector<MeshMarks> &marks);
 
-  std::vector<MeshMarks> refined; ///< trail()
+  std::vector<MeshMarks> refined; ///< refinement_history()
 };
 
 /** Is it the primal path that solves @p scene on @p n processes? Throws InputError where none does. */

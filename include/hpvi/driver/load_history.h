@@ -36,7 +36,7 @@ public:
   std::optional<RunState<dim>> state() const;
 
   /** AdaptiveSolver::prepare(), of the first load step. */
-  void prepare(const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+  void prepare(const std::function<void(const Progress &)> &on_stage = [](const Progress &) {});
 
   /**
    * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
@@ -47,7 +47,7 @@ public:
    */
   void run(
       const std::function<void(const StepReport<dim> &)> &finished_step,
-      const std::function<void(const Progress &)> &about_to = [](const Progress &) {});
+      const std::function<void(const Progress &)> &on_stage = [](const Progress &) {});
 
 private:
   struct Evolution;

@@ -29,7 +29,7 @@ public:
   Energies energies() override;
   NodalForces<dim> nodal_forces() override;
   std::optional<PrimalPart<dim>> primal() const override;
-  BoundOfStep bound(double own_stress) override;
+  BoundOfStep bound(double hysteresis) override;
   double decay_rate(unsigned int cell) const override;
   double round_off_estimate() const override;
   void mark_unresolved(Refinement &) const override

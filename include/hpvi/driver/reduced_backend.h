@@ -64,7 +64,7 @@ public:
                             program.condition_scaled};
   }
 
-  BoundOfStep bound(double own_stress) override;
+  BoundOfStep bound(double hysteresis) override;
   std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) override
   {
     this->begin("bounding forces");
@@ -138,15 +138,15 @@ private:
   ReducedBackend(const Scene<dim> &scene, std::shared_ptr<Kept> kept);
   ReducedBackend(ReducedBackend &here, const Refinement &refinement); ///< ahead()
 
-  void take_over(const ReducedBackend &last);
+  void transfer_from(const ReducedBackend &last);
   void look_at_loads(unsigned int finer);
   void assemble();
   void build();
   void factor();
-  void keep_start(const dealii::Vector<double> &z, const dealii::Vector<double> &moved);
+  void keep_warm_start(const dealii::Vector<double> &z, const dealii::Vector<double> &moved);
   void take(dealii::Vector<double> u, const dealii::Vector<double> &z);
   /** Much of the bound is for one thread: another one has the forces ready that will be asked for. */
-  ErrorBound bound_beside_forces(const double own_stress)
+  ErrorBound bound_beside_forces(const double hysteresis)
   {
     ErrorBound result;
     ErrorBounds anew; // which steps had one before must not decide about the last bits
@@ -158,7 +158,7 @@ private:
       if (k == 1)
         nodal_forces();
       else
-        result = bounds.compute(*solution, *discretisation, std::move(kept_factor), own_stress);
+        result = bounds.compute(*solution, *discretisation, std::move(kept_factor), hysteresis);
     };
     double both = 0; // less than their sum where there are two threads
     {
@@ -182,7 +182,7 @@ private:
   const std::shared_ptr<Kept> kept;
   std::shared_ptr<const LoadRules<dim>> loads;
   unsigned int finer_loads = 1;   ///< how close it looks
-  std::string missing, seen_late; ///< missed_loads() of this mesh, of an earlier one
+  std::string missing, late_load; ///< missed_loads() of this mesh, of an earlier one
   const LegendreSmoothness<dim> smoothness;
   std::vector<UnresolvedLoad<dim>> unresolved; ///< of the current step, as all that follows
   std::vector<MissedDisplacement<dim>> missed_displacements;

@@ -22,15 +22,15 @@ namespace hpvi
  * solution, the next solution neither, so that two threads have work all the time.
  */
 template <int dim>
-class StepAhead
+class PipelinedStep
 {
 public:
   /**
    * Solves @p next on the calling thread, which is the one that hears of stages, beside @p tell of @p here, whose own stages are silent.
-   * Seconds of both are shares of the time that they take together. Throws what tell() throws.
+   * Seconds of both are shares of the time that they take together. Throws what report() throws.
    */
-  StepAhead(std::unique_ptr<Backend<dim>> next, Backend<dim> &here,
-            const std::function<void()> &tell);
+  PipelinedStep(std::unique_ptr<Backend<dim>> next, Backend<dim> &here,
+                const std::function<void()> &report);
 
   /** The next step in the place of this one; throws what solving it has thrown. */
   std::unique_ptr<Backend<dim>> take();
@@ -46,9 +46,9 @@ struct StepStages
 {
   const Scene<dim> &scene;
   std::unique_ptr<Backend<dim>> backend;
-  std::unique_ptr<StepAhead<dim>> ahead; ///< the next step, if it is solved
-  bool is_solved = false;                ///< it was ahead
-  std::function<void(const Progress &)> about_to;
+  std::unique_ptr<PipelinedStep<dim>> ahead; ///< the next step, if it is solved
+  bool is_solved = false;                    ///< it was ahead
+  std::function<void(const Progress &)> on_stage;
   const TrueError<dim> true_error;
   MeanIntervals<dim> mean_intervals;
   DataScale data;
@@ -68,19 +68,19 @@ struct StepStages
     together(this->backend->communicator, [&]() { data = data_scale(scene); });
   }
 
-  void hear(const std::function<void(const Progress &)> &listener);
+  void set_callback(const std::function<void(const Progress &)> &listener);
   void announce(Backend<dim> &of);
   void solve();
-  void judge();
-  double own_stress() const;
+  void estimate();
+  double hysteresis() const;
   bool has_late_bound() const;
   bool asks_for_bound(const StepReport<dim> &step) const;
-  void close_bound();
+  void compute_bound();
   void bound_unless_late();
   Refinement mark() const;
   PastStep<dim> past_step() const;
   bool goes_on() const;
-  StepReport<dim> tell();
+  StepReport<dim> report();
   StepReport<dim> report();
   std::string end_of_run() const;
   void add_results(StepReport<dim> &step);

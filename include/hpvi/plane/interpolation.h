@@ -16,7 +16,7 @@ dealii::Vector<double> interpolate(const Solution<dim> &coarse,
 
 /** @p coarse, its multiplier too, as a state of the mesh of @p finer: of its own scene still, and there no solution. */
 template <int dim>
-Solution<dim> carry(const Solution<dim> &coarse, const Spaces<dim> &finer);
+Solution<dim> interpolate(const Solution<dim> &coarse, const Spaces<dim> &finer);
 } // namespace hpvi
 
 #endif

@@ -14,7 +14,7 @@ namespace hpvi
 template <int dim>
 struct RunListener
 {
-  std::function<void(const Progress &)> about_to;        ///< a stage; may throw to give up
+  std::function<void(const Progress &)> on_stage;        ///< a stage; may throw to give up
   std::function<void(const Output<dim> &)> begun;        ///< files are written from now on
   std::function<void(const StepReport<dim> &)> finished; ///< before the files of the step
 };

@@ -23,7 +23,7 @@ struct PastStep
   double relative_half_width = std::numeric_limits<double>::quiet_NaN();
   double seconds = 0;           ///< from the start of the run to the end of the step
   bool lacks_condition = false; ///< asked for cond(S), which S did not have up to round-off
-  double own_stress = 0;        ///< ErrorBound::own_stress
+  double hysteresis = 0;        ///< ErrorBound::hysteresis
   std::vector<StressSample<dim>> extrema = {}; ///< stress_extrema(): which ones grow without bound
   Claims claims = {};                          ///< what it guarantees
   /** Of these and those of steps before, contradiction(); then nothing is guaranteed from this step on. */
