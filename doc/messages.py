@@ -51,7 +51,7 @@ SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary
             "closed_forms/closed_form": "Boundary NAME", "plane/contact_numbering": "Boundary NAME", "space/primal_space": "Boundary NAME",
             "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Material NAME", "shapes/shape": "Geometry"}
 # What the refused input of other sources is about.
-SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/free_names"),
+SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/user_names"),
             "Expressions": ("input/expressions",), "Mesh files": ("gmsh/", "shapes/mesh_from_file"),
             "Files of earlier runs": ("base/file_format", "driver/checkpoint", "driver/load_history", "driver/adaptive_solver", "driver/step_stages", "results/stored_solution", "output/tables"),
             "The directory of results": ("output/",), "Scenes made by code": ("plane/mesh", "scene/scene", "driver/backend")}
@@ -533,14 +533,14 @@ def reasons(sources):
 
 def hints(sources):
     """What is answered to names of other programs: words, and what to write in their place."""
-    code, found = sources.code["reader/scene_hints"], []
+    code, found = sources.code["reader/scene_aliases"], []
     for k in range(len(code) - 1):
         if not (is_sign(code[k], "{") and is_sign(code[k + 1], "{")):
             continue
         parts = group(code, k)[0]
         words = [token.text for token in parts[0] if token.kind == "literal"]
         if len(parts) == 2 and words and all(token.kind == "literal" or is_sign(token, "{},") for token in parts[0]):
-            remedy = sources.text(parts[1], "reader/scene_hints", k)
+            remedy = sources.text(parts[1], "reader/scene_aliases", k)
             found.append(f"<tr><td>{escaped(', '.join(words))}</td><td><b>{escaped(remedy)}</b></td></tr>")
     return "<table>\n" + "\n".join(found) + "\n</table>\n"
 

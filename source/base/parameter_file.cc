@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/parameter_file.h>
 
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -21,7 +21,7 @@ namespace
 class FileScanner
 {
 public:
-  explicit FileScanner(const std::string &file) : file(file), shown(shown_file(file))
+  explicit FileScanner(const std::string &file) : file(file), shown(display_name(file))
   {
   }
 

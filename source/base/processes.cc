@@ -61,7 +61,7 @@ unsigned int rank_of(MPI_Comm communicator)
   return Utilities::MPI::job_supports_mpi() ? Utilities::MPI::this_mpi_process(communicator) : 0;
 }
 
-void together(MPI_Comm communicator, const std::function<void()> &work)
+void collectively(MPI_Comm communicator, const std::function<void()> &work)
 {
   if (n_processes(communicator) == 1)
     return work();
@@ -80,10 +80,10 @@ void together(MPI_Comm communicator, const std::function<void()> &work)
   throw std::runtime_error(message);
 }
 
-double sum_together(MPI_Comm communicator, const std::function<double()> &work)
+double sum_collectively(MPI_Comm communicator, const std::function<double()> &work)
 {
   double sum = 0;
-  together(communicator, [&]() { sum = work(); });
+  collectively(communicator, [&]() { sum = work(); });
   return Utilities::MPI::sum(sum, communicator);
 }
 } // namespace hpvi

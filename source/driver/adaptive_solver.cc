@@ -33,7 +33,7 @@ void check_one_problem(const Scene<dim> &scene)
 template <int dim>
 std::unique_ptr<Backend<dim>> checked_backend(const Scene<dim> &scene, MPI_Comm communicator)
 {
-  together(communicator, [&]() { check_one_problem(scene); });
+  collectively(communicator, [&]() { check_one_problem(scene); });
   return make_backend(scene, communicator);
 }
 } // namespace

@@ -38,7 +38,7 @@ template <int dim>
 std::shared_ptr<typename PrimalSpace<dim>::Mesh> spread_mesh(const Scene<dim> &scene,
                                                              MPI_Comm communicator)
 {
-  together(communicator, [&]() { check_primal_path(scene); });
+  collectively(communicator, [&]() { check_primal_path(scene); });
   const auto mesh = std::make_shared<typename PrimalSpace<dim>::Mesh>(communicator);
   make_mesh(scene, static_cast<Triangulation<dim> &>(*mesh));
   const auto n = hpvi::n_processes(communicator);
@@ -92,7 +92,7 @@ void require_room(const PrimalSpace<dim> &space)
   MPI_Comm_split_type(space.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   const double bytes = Utilities::MPI::sum(expected_bytes(space), machine);
   MPI_Comm_free(&machine);
-  together(space.communicator(), [&]() { require_memory(bytes, matrix_name(space)); });
+  collectively(space.communicator(), [&]() { require_memory(bytes, matrix_name(space)); });
 }
 
 /** What Newton's method leaves, as a part of the estimated error. */
@@ -255,7 +255,7 @@ void PrimalBackend<dim>::take()
   values_at_points = std::make_unique<const PrimalField<dim>>(*space, shape_tables, u, lambda);
   begin("estimating the error");
   StageTimer timer(times.estimate);
-  together(space->communicator(), [&]() { estimated = estimate_error(*values_at_points); });
+  collectively(space->communicator(), [&]() { estimated = estimate_error(*values_at_points); });
   error = norms(estimated, space->communicator()).total / std::sqrt(scene.reference_coercivity());
 }
 
@@ -370,13 +370,13 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
                                       const Equilibrium<dim> &balance) const
 {
   Warnings result;
-  together(space->communicator(),
-           [&]()
-           {
-             const LoadCheck<dim> check(scene);
-             if (const std::string line = check.warning(balance.loads); !line.empty())
-               result.push_back({WarningKind::load, 0., line});
-           });
+  collectively(space->communicator(),
+               [&]()
+               {
+                 const LoadCheck<dim> check(scene);
+                 if (const std::string line = check.warning(balance.loads); !line.empty())
+                   result.push_back({WarningKind::load, 0., line});
+               });
   if (report.is_cut_off)
     result.push_back({WarningKind::cut_off, double(report.steps),
                       "Newton's method did not find stick and slip in " + to_string(report.steps) +

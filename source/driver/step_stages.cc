@@ -427,8 +427,8 @@ void StepStages<dim>::conclude(StepReport<dim> &step)
   step.unbounded = stress_singularities(growing, samples, step.field);
   const BodyState<dim> body = body_state(step.field);
   Warnings of_all;
-  together(backend->communicator,
-           [&]() { of_all = warnings(step.scene, step.contact, body, history); });
+  collectively(backend->communicator,
+               [&]() { of_all = warnings(step.scene, step.contact, body, history); });
   step.warnings =
       joined(contradiction_warnings(step.contradiction), of_all,
              backend->warnings(step.contact, step.equilibrium),

@@ -50,7 +50,7 @@ struct RowSample
   bool is_constant = true;
 };
 
-RowSample sample(const SceneSheet &sheet, const BoundaryPart &part, const ArrowRow &row)
+RowSample sample(const SceneSheet &sheet, const OutlinePart &part, const ArrowRow &row)
 {
   const std::vector<Station> places = sheet.sample(part);
   RowSample result{0., 0., places[places.size() / 2], true};
@@ -101,7 +101,7 @@ void draw_size(SceneSheet &sheet, const MarkedPart &marked, const ArrowRow &row,
 }
 
 /** Where its arrows stand: farther from each other where they lie along the boundary; where the largest is narrow, there too. */
-std::vector<Station> places_of(const SceneSheet &sheet, const BoundaryPart &part,
+std::vector<Station> places_of(const SceneSheet &sheet, const OutlinePart &part,
                                const ArrowRow &row, const RowSample &seen, const double pixels)
 {
   const double lying = seen.along * pixels;

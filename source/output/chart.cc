@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/output/axes.h>
 #include <hpvi/output/chart.h>
+#include <hpvi/output/chart_axes.h>
 #include <hpvi/output/drawing.h>
 #include <hpvi/output/scene_sheet.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/output/boundary_part.h>
 #include <hpvi/output/colour_bands.h>
 #include <hpvi/output/drawing.h>
 #include <hpvi/output/field_picture.h>
+#include <hpvi/output/outline_part.h>
 #include <hpvi/output/raster.h>
 #include <hpvi/output/run_files.h>
 #include <hpvi/output/scene_sheet.h>
@@ -208,7 +208,7 @@ void draw_undeformed(Drawing &drawing, const Scene<2> &scene, const View<2> &vie
 {
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
-  for (const BoundaryPart &part : boundary_parts(mesh))
+  for (const OutlinePart &part : boundary_parts(mesh))
   {
     std::vector<PagePoint> line;
     for (const Point<2> &x : part.points())

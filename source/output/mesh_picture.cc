@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/grid/grid_tools.h>
 #include <hpvi/base/formatting.h>
-#include <hpvi/output/axes.h>
 #include <hpvi/output/cell_outline.h>
+#include <hpvi/output/chart_axes.h>
 #include <hpvi/output/mesh_picture.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
+#include <hpvi/output/complete_run.h>
 #include <hpvi/output/contact_line.h>
 #include <hpvi/output/contact_table.h>
-#include <hpvi/output/finished_run.h>
 #include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
@@ -117,12 +117,12 @@ GrowingText first_of_pvd(const std::string &pvd, const unsigned int n_steps)
   return result;
 }
 
-/** together(), where what goes wrong is that something cannot be written. */
+/** collectively(), where what goes wrong is that something cannot be written. */
 void write_together(MPI_Comm communicator, const std::function<void()> &work)
 {
   try
   {
-    together(communicator, work);
+    collectively(communicator, work);
   }
   catch (const InputError &)
   {

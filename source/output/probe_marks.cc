@@ -60,11 +60,11 @@ void draw_cross(SceneSheet &sheet, const PagePoint &at)
 }
 
 /** Beside the boundary, inside, where nothing else is drawn. */
-void draw_boundary(SceneSheet &sheet, const Probe<2> &probe, const std::vector<BoundaryPart> &parts)
+void draw_boundary(SceneSheet &sheet, const Probe<2> &probe, const std::vector<OutlinePart> &parts)
 {
   constexpr double inset = 4.;
-  const BoundaryPart *longest = nullptr;
-  for (const BoundaryPart &part : parts)
+  const OutlinePart *longest = nullptr;
+  for (const OutlinePart &part : parts)
   {
     if (std::find(probe.on.begin(), probe.on.end(), part.boundary) == probe.on.end())
       continue;
@@ -94,7 +94,7 @@ void draw_line(SceneSheet &sheet, const Probe<2> &probe)
 }
 } // namespace
 
-void draw_probes(SceneSheet &sheet, const std::vector<BoundaryPart> &parts)
+void draw_probes(SceneSheet &sheet, const std::vector<OutlinePart> &parts)
 {
   for (const Probe<2> &probe : sheet.scene.probes)
   {

@@ -3,9 +3,9 @@
 #include <hpvi/base/memory.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/html.h>
-#include <hpvi/output/last_word.h>
 #include <hpvi/output/report_words.h>
 #include <hpvi/output/results_report.h>
+#include <hpvi/output/stop_reason.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,8 +70,8 @@ std::string ending_words(const JsonTree &summary, const Adaptivity &adaptivity)
   if (status == "done")
     return element("p",
                    "Done: " +
-                       last_word(words_of(summary, "stopped_by"), adaptivity,
-                                 member(summary, "error_bound")) +
+                       stop_reason(words_of(summary, "stopped_by"), adaptivity,
+                                   member(summary, "error_bound")) +
                        ".",
                    "ending") +
            "\n";

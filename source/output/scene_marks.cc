@@ -40,7 +40,7 @@ void hatch(Drawing &drawing, const std::vector<PagePoint> &line,
 
 namespace
 {
-void draw_clamp(SceneSheet &sheet, const BoundaryPart &part, const double band)
+void draw_clamp(SceneSheet &sheet, const OutlinePart &part, const double band)
 {
   std::vector<PagePoint> line;
   std::vector<PageVector> normals;
@@ -67,7 +67,7 @@ void draw_roller(Drawing &drawing, const PagePoint &tip, const PageVector &axis)
 }
 
 /** Where the component is one along the boundary, its rollers stand beside the body. */
-double draw_rollers(SceneSheet &sheet, const BoundaryPart &part, const unsigned int component,
+double draw_rollers(SceneSheet &sheet, const OutlinePart &part, const unsigned int component,
                     const double band)
 {
   Tensor<1, 2> unit;
@@ -314,7 +314,7 @@ std::vector<TextLine> words_of(const SceneSheet &sheet, const MarkedPart &marked
   if (!marked.has_words)
     return lines;
   std::vector<Point<2>> points;
-  for (const BoundaryPart *const piece : marked.pieces)
+  for (const OutlinePart *const piece : marked.pieces)
     for (const Station &place : sheet.sample(*piece))
       points.push_back(place.x);
   for (const std::string &phrase : support_phrases(sheet.scene, condition, points))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/arrow_rows.h>
-#include <hpvi/output/axes.h>
 #include <hpvi/output/cell_outline.h>
+#include <hpvi/output/chart_axes.h>
 #include <hpvi/output/probe_marks.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_marks.h>
@@ -86,31 +86,31 @@ void draw_material_axes(SceneSheet &sheet, const Triangulation<2> &mesh)
 }
 
 /** The longest part of each boundary has the words. */
-std::vector<MarkedPart> marked_parts(const Scene<2> &scene, const std::vector<BoundaryPart> &parts)
+std::vector<MarkedPart> marked_parts(const Scene<2> &scene, const std::vector<OutlinePart> &parts)
 {
   std::vector<MarkedPart> marked;
-  for (const BoundaryPart &part : parts)
+  for (const OutlinePart &part : parts)
   {
     const bool is_longest =
         std::none_of(parts.begin(), parts.end(),
-                     [&](const BoundaryPart &other)
+                     [&](const OutlinePart &other)
                      {
                        return other.boundary == part.boundary &&
                               (other.length() > (1 + 1e-9) * part.length() ||
                                (&other < &part && other.length() > (1 - 1e-9) * part.length()));
                      });
     marked.push_back({part, scene.boundaries[part.boundary], is_longest, {}});
-    for (const BoundaryPart &other : parts)
+    for (const OutlinePart &other : parts)
       if (other.boundary == part.boundary)
         marked.back().pieces.push_back(&other);
   }
   return marked;
 }
 
-void draw_outline(SceneSheet &sheet, const std::vector<BoundaryPart> &parts)
+void draw_outline(SceneSheet &sheet, const std::vector<OutlinePart> &parts)
 {
   sheet.drawing.begin("outline");
-  for (const BoundaryPart &part : parts)
+  for (const OutlinePart &part : parts)
   {
     std::vector<PagePoint> line;
     for (const Point<2> &x : part.points())
@@ -239,7 +239,7 @@ std::string scene_picture(const Scene<2> &scene)
   Triangulation<2> mesh;
   make_mesh(last, mesh);
   SceneSheet sheet(last, GridTools::compute_bounding_box(mesh));
-  const std::vector<BoundaryPart> parts = boundary_parts(mesh);
+  const std::vector<OutlinePart> parts = boundary_parts(mesh);
   const std::vector<MarkedPart> marked = marked_parts(last, parts);
   find_largest(sheet, marked);
   draw_body(sheet, mesh);

@@ -24,19 +24,19 @@ PageVector SceneSheet::direction(const Tensor<1, 2> &vector) const
   return PageVector({vector[0], -vector[1]});
 }
 
-double SceneSheet::length(const BoundaryPart &part) const
+double SceneSheet::length(const OutlinePart &part) const
 {
   return scale * part.length();
 }
 
-Station SceneSheet::station(const BoundaryPart &part, const double share) const
+Station SceneSheet::station(const OutlinePart &part, const double share) const
 {
-  const BoundaryPlace place = part.at(share * part.length());
+  const OutlinePlace place = part.at(share * part.length());
   const PageVector normal = direction(place.normal);
   return {place.x, page(place.x), normal, PageVector({-normal[1], normal[0]})};
 }
 
-std::vector<Station> SceneSheet::stations(const BoundaryPart &part, const double spacing,
+std::vector<Station> SceneSheet::stations(const OutlinePart &part, const double spacing,
                                           const bool with_ends) const
 {
   const double number = length(part) / spacing;
@@ -47,7 +47,7 @@ std::vector<Station> SceneSheet::stations(const BoundaryPart &part, const double
   return result;
 }
 
-std::vector<Station> SceneSheet::sample(const BoundaryPart &part) const
+std::vector<Station> SceneSheet::sample(const OutlinePart &part) const
 {
   return stations(part, length(part) / 500., true);
 }

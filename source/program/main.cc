@@ -93,7 +93,7 @@ void write(const ResultDirectory &results, const std::string &what, const std::s
 /** `hpvi --picture`: scene_picture() as scene.svg into @p directory. Throws InputError or OutputFailure. */
 void draw(const Scene<2> &scene, const std::string &directory)
 {
-  agree(
+  in_all_processes(
       [&]()
       {
         if (!is_first_process())
@@ -156,7 +156,7 @@ template <int dimension>
 void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
   std::optional<Scene<dimension>> read;
-  agree([&]() { read.emplace(read_scene<dimension>(command_line)); });
+  in_all_processes([&]() { read.emplace(read_scene<dimension>(command_line)); });
   const Scene<dimension> &scene = *read;
   const std::string directory = command_line.output_directory.empty()
                                     ? "output/" + scene.name
@@ -186,7 +186,8 @@ void obey_scene(const CommandLine &command_line, const std::function<void()> &st
 bool is_in_space(const CommandLine &command_line)
 {
   int dimension = 0;
-  agree([&]() { dimension = scene_dimension(command_line.scene_file, command_line.overrides); });
+  in_all_processes(
+      [&]() { dimension = scene_dimension(command_line.scene_file, command_line.overrides); });
   return dimension == 3;
 }
 
@@ -197,7 +198,7 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
   else if (command_line.version)
     std::cout << version_line() << std::endl;
   else if (!command_line.report.empty())
-    agree(
+    in_all_processes(
         [&]()
         {
           if (is_first_process())

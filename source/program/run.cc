@@ -3,10 +3,10 @@
 #include <hpvi/base/text.h>
 #include <hpvi/driver/load_history.h>
 #include <hpvi/output/contact_report.h>
-#include <hpvi/output/last_word.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/scene_words.h>
+#include <hpvi/output/stop_reason.h>
 #include <hpvi/plane/matching.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/interruption.h>
@@ -175,7 +175,7 @@ template <int dim>
 void Ending::hear(const StepReport<dim> &step)
 {
   times += step.times;
-  reason = last_word(step.stopped_by, step.scene.adaptivity, bool(step.bound));
+  reason = stop_reason(step.stopped_by, step.scene.adaptivity, bool(step.bound));
   warnings = texts(step.warnings);
   if (step.bound)
     last_bound = "that of step " + text(step.number) + " is " + text(step.relative_bound, 2) +
@@ -335,7 +335,7 @@ template <int dim>
 void resume(const Scene<dim> &scene, const std::string &directory)
 {
   std::optional<RunState<dim>> state;
-  agree(
+  in_all_processes(
       [&]()
       {
         const std::string file = directory + "/state.dat";

@@ -28,8 +28,8 @@ bool is_first_process()
   return rank_of(MPI_COMM_WORLD) == 0;
 }
 
-void agree(const std::function<void()> &work)
+void in_all_processes(const std::function<void()> &work)
 {
-  together(MPI_COMM_WORLD, work);
+  collectively(MPI_COMM_WORLD, work);
 }
 } // namespace hpvi

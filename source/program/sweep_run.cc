@@ -8,7 +8,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/driver/backend.h>
 #include <hpvi/driver/load_history.h>
-#include <hpvi/output/finished_run.h>
+#include <hpvi/output/complete_run.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_words.h>
@@ -207,7 +207,7 @@ void Sweep<dim>::look_for_results()
     const std::string scene = content_of(directory_of(k) + "/scene.prm");
     if (!scene.empty() && scene != effective_parameters(*scenes[k]))
       reject("its " + printable(swept[k].directory) + " has results of another scene");
-    runs[k].was_done = !scene.empty() && is_finished_run(directory_of(k));
+    runs[k].was_done = !scene.empty() && is_complete_run(directory_of(k));
     if (!runs[k].was_done)
       continue;
     if (input_files_of(directory_of(k)) != input_files_of(*scenes[k]))

@@ -112,7 +112,7 @@ Scene<2> single_body(const Parameters &parameters, const std::string &name)
 }
 
 /** Grid lines of boxes where parts of sides and materials end, as of one body. */
-void cut_bodies(const Parameters &parameters, const FreeNames &names,
+void cut_bodies(const Parameters &parameters, const UserNames &names,
                 std::vector<Scene<2>> &singles)
 {
   for (unsigned int b = 0; b < singles.size(); ++b)
@@ -136,7 +136,7 @@ void cut_bodies(const Parameters &parameters, const FreeNames &names,
 }
 } // namespace
 
-void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> &scene)
+void read_bodies(const Parameters &parameters, const UserNames &names, Scene<2> &scene)
 {
   std::vector<Scene<2>> singles;
   for (const std::string &name : names.bodies)

@@ -183,7 +183,7 @@ void read_part(const Parameters &parameters, const std::string &name, Scene<dim>
 } // namespace
 
 template <int dim>
-void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene)
+void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> &scene)
 {
   if (names.bodies.empty())
   {
@@ -234,8 +234,8 @@ template Expression<2> read_where(const Parameters &, const std::string &,
                                   const std::vector<Point<2>> &);
 template Expression<3> read_where(const Parameters &, const std::string &,
                                   const std::vector<Point<3>> &);
-template void read_body(const Parameters &, const FreeNames &, Scene<2> &);
-template void read_body(const Parameters &, const FreeNames &, Scene<3> &);
+template void read_body(const Parameters &, const UserNames &, Scene<2> &);
+template void read_body(const Parameters &, const UserNames &, Scene<3> &);
 template std::vector<unsigned int> materials_along(const Scene<2> &, const BoundaryCondition<2> &);
 template std::vector<unsigned int> materials_along(const Scene<3> &, const BoundaryCondition<3> &);
 } // namespace hpvi

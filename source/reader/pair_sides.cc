@@ -167,7 +167,7 @@ bool NamedSide::has(const CoarseFace<2> &face) const
   return !where || where->value(middle_of(face)) > 0;
 }
 
-std::vector<NamedSide> named_sides(const Parameters &parameters, const FreeNames &names,
+std::vector<NamedSide> named_sides(const Parameters &parameters, const UserNames &names,
                                    const std::vector<Scene<2>> &singles)
 {
   std::vector<NamedSide> result;

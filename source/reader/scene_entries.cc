@@ -60,7 +60,7 @@ void add(std::vector<Entry> &entries, const std::vector<Entry> &more)
 }
 
 void add_problem_entries(std::vector<Entry> &entries, const int dim,
-                         const std::vector<std::string> &materials, const FreeNames &names)
+                         const std::vector<std::string> &materials, const UserNames &names)
 {
   const auto text = matching(Patterns::Anything());
 
@@ -307,7 +307,7 @@ void take_to_space(std::vector<Entry> &entries)
 }
 } // namespace
 
-std::vector<Entry> scene_entries(const int dim, const FreeNames &names)
+std::vector<Entry> scene_entries(const int dim, const UserNames &names)
 {
   std::vector<Entry> entries;
   std::vector<std::string> materials{""};

@@ -4,7 +4,7 @@
 #include <hpvi/reader/shapes/mesh_from_file.h>
 #include <hpvi/reader/shapes/shape.h>
 
-#include <hpvi/base/shown_file.h>
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
@@ -13,8 +13,8 @@
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/probe_reader.h>
+#include <hpvi/reader/scene_aliases.h>
 #include <hpvi/reader/scene_entries.h>
-#include <hpvi/reader/scene_hints.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -277,7 +277,7 @@ void read_body_force(const Parameters &parameters, const std::optional<double> t
 
 /** All but the load history; @p t is its time, if there is one. */
 template <int dim>
-Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, const FreeNames &names,
+Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, const UserNames &names,
                         const std::string &name, const std::optional<double> t)
 {
   Scene<dim> scene;
@@ -317,7 +317,7 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
 /** A history has the functions of every load step, which are those of one problem with t frozen. */
 template <int dim>
 Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
-                          const FreeNames &names, const std::string &name)
+                          const UserNames &names, const std::string &name)
 {
   Loading<dim> loading;
   loading.adapt =
@@ -337,12 +337,12 @@ namespace
 {
 /** Of the body first, for these say which others there may be. */
 template <int dim>
-FreeNames names_in(const std::string &file,
+UserNames names_in(const std::string &file,
                    const std::vector<std::pair<std::string, std::string>> &overrides)
 {
   const std::vector<std::string> bodies = body_names(file, overrides);
   if (dim == 3 && !bodies.empty())
-    throw InputError(shown_file(file) +
+    throw InputError(display_name(file) +
                      ": Dimension = 3: several bodies are offered in the plane alone; set 2, or "
                      "describe one body in the subsection Geometry");
   SideNames sides;
@@ -358,7 +358,7 @@ FreeNames names_in(const std::string &file,
         if (own.is_from_file && !curve.empty())
           sides.interfaces.push_back(body + "." + curve);
   }
-  FreeNames names = free_names(file, overrides, sides.sides);
+  UserNames names = user_names(file, overrides, sides.sides);
   names.bodies = bodies;
   names.is_from_file = sides.is_from_file;
   names.interfaces = sides.interfaces;
@@ -371,9 +371,9 @@ Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides,
                       const SceneUse use)
 {
-  const FreeNames names = names_in<dim>(file, overrides);
+  const UserNames names = names_in<dim>(file, overrides);
   const auto parameters = std::make_shared<Parameters>(
-      scene_entries(dim, names), scene_hints(dim, names.sides, names.interfaces), file);
+      scene_entries(dim, names), scene_aliases(dim, names.sides, names.interfaces), file);
   parameters->read(overrides);
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",

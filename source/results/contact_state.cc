@@ -302,15 +302,15 @@ template <int dim>
 std::vector<ContactState<dim>> contact_states(const Field<dim> &field)
 {
   DataScale data;
-  together(field.communicator(), [&]() { data = data_scale(field.scene); });
+  collectively(field.communicator(), [&]() { data = data_scale(field.scene); });
   const OwnContact<dim> contact(field, data);
   std::vector<ContactState<dim>> own;
-  together(field.communicator(), [&]() { own = contact.states(); });
+  collectively(field.communicator(), [&]() { own = contact.states(); });
   std::vector<ContactState<dim>> states = gathered(std::move(own), field.communicator());
   if constexpr (dim == 2)
   {
     std::vector<Side<2>> sides;
-    together(field.communicator(), [&]() { sides = sides_of(field.scene); });
+    collectively(field.communicator(), [&]() { sides = sides_of(field.scene); });
     for (ContactState<2> &state : states)
       find_zones(field.scene, sides[state.boundary], state);
   }

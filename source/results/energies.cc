@@ -189,15 +189,15 @@ double friction_work(const FieldFace<3> &face, const Field<3> &field, const doub
 template <int dim>
 double friction_work(const Field<dim> &field, const double tolerance)
 {
-  return sum_together(field.communicator(),
-                      [&]()
-                      {
-                        double sum = 0;
-                        for (const FieldFace<dim> &face : field.faces())
-                          if (face.condition->friction)
-                            sum += friction_work(face, field, tolerance);
-                        return sum;
-                      });
+  return sum_collectively(field.communicator(),
+                          [&]()
+                          {
+                            double sum = 0;
+                            for (const FieldFace<dim> &face : field.faces())
+                              if (face.condition->friction)
+                                sum += friction_work(face, field, tolerance);
+                            return sum;
+                          });
 }
 } // namespace
 

@@ -182,7 +182,7 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
     sums.add(sums.reactions[reaction.boundary], reaction.force, reaction.x, reaction.body);
   sums.sum_up(communicator);
   Equilibrium<dim> result;
-  together(communicator, [&]() { result = balance_of(sums, scene); });
+  collectively(communicator, [&]() { result = balance_of(sums, scene); });
   result.parts_of_loads = parts_of_loads<dim>(scene, forces.tractions, result.loads, communicator);
   result.plates = forces.plates;
   if constexpr (dim == 2)

@@ -86,16 +86,16 @@ ProbeValue<dim> value_of(const unsigned int number, const Field<dim> &field)
   const Probe<dim> &probe = field.scene.probes[number];
   const ProbeRule<dim> rule = probe_rule(probe, field.scene, field.dof_handler, field.tables);
   Sum<dim> sum;
-  together(field.communicator(),
-           [&]()
-           {
-             for (const WeightedPoints<dim> &part : rule)
-             {
-               const auto values = field.values(part.cell, part.points);
-               for (unsigned int q = 0; q < values.size(); ++q)
-                 sum.add(part.weights[q], values[q]);
-             }
-           });
+  collectively(field.communicator(),
+               [&]()
+               {
+                 for (const WeightedPoints<dim> &part : rule)
+                 {
+                   const auto values = field.values(part.cell, part.points);
+                   for (unsigned int q = 0; q < values.size(); ++q)
+                     sum.add(part.weights[q], values[q]);
+                 }
+               });
   Utilities::MPI::sum(sum.numbers, field.communicator(), sum.numbers);
   const LinePoint<dim> mean = sum.mean(probe.at);
   ProbeValue<dim> result;
@@ -133,7 +133,7 @@ ProbeLine<dim> line_of(const unsigned int number, const Field<dim> &field)
         sums[which[q]].add(1., values[q]);
     }
   };
-  together(field.communicator(), add_cells);
+  collectively(field.communicator(), add_cells);
   ProbeLine<dim> result;
   result.probe = number;
   for (unsigned int k = 0; k < probe.n_points; ++k)

@@ -406,7 +406,7 @@ template <int dim>
 ErrorEstimate estimate_error(const Field<dim> &field)
 {
   ErrorEstimate result;
-  together(field.communicator(), [&]() { result = Residuals<dim>(field).compute(); });
+  collectively(field.communicator(), [&]() { result = Residuals<dim>(field).compute(); });
   return result;
 }
 

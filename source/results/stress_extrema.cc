@@ -101,7 +101,7 @@ template <int dim>
 std::vector<StressSample<dim>> stress_samples(const Field<dim> &field)
 {
   std::vector<StressSample<dim>> result;
-  together(field.communicator(), [&]() { result = own_stress_samples(field); });
+  collectively(field.communicator(), [&]() { result = own_stress_samples(field); });
   if (n_processes(field.communicator()) == 1)
     return result;
   const auto all =

@@ -262,34 +262,34 @@ void TrueError<dim>::compare_with_exact(const Field<dim> &field,
   double potential = 0, friction = 0, pressure = 0;
   errors.of_cells.resize(field.dof_handler.get_triangulation().n_active_cells());
   bool has_multipliers = false;
-  together(field.communicator(),
-           [&]()
-           {
-             double body_work = 0;
-             for (const auto &cell : field.dof_handler.active_cell_iterators())
-               if (cell->is_locally_owned())
-               {
-                 const DifferenceSquares here = compare_cell<dim>(field, cell, exact, body_work);
-                 errors.of_cells[cell->active_cell_index()] = here.energy;
-                 own += here;
-               }
-             potential = 0.5 * own.norm - body_work;
-             for (const auto &cell : field.dof_handler.active_cell_iterators())
-               for (const unsigned int f : cell->face_indices())
-                 if (cell->is_locally_owned() && cell->at_boundary(f))
-                   potential += boundary_potential(scene.boundaries[cell->face(f)->boundary_id()],
-                                                   FlatFace<dim>(map_of<dim>(cell), f), exact);
-             for (const FieldFace<dim> &face : field.faces())
-             {
-               has_multipliers = has_multipliers || !field.friction_cuts(face).empty() ||
-                                 !field.pressures(face).empty();
-               errors.of_faces.push_back(
-                   scene.has_friction() ? multiplier_square(field, face, exact) : 0.);
-               friction += errors.of_faces.back();
-               pressure +=
-                   face.condition->has_pressure() ? pressure_square(field, face, exact) : 0.;
-             }
-           });
+  collectively(
+      field.communicator(),
+      [&]()
+      {
+        double body_work = 0;
+        for (const auto &cell : field.dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+          {
+            const DifferenceSquares here = compare_cell<dim>(field, cell, exact, body_work);
+            errors.of_cells[cell->active_cell_index()] = here.energy;
+            own += here;
+          }
+        potential = 0.5 * own.norm - body_work;
+        for (const auto &cell : field.dof_handler.active_cell_iterators())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->is_locally_owned() && cell->at_boundary(f))
+              potential += boundary_potential(scene.boundaries[cell->face(f)->boundary_id()],
+                                              FlatFace<dim>(map_of<dim>(cell), f), exact);
+        for (const FieldFace<dim> &face : field.faces())
+        {
+          has_multipliers = has_multipliers || !field.friction_cuts(face).empty() ||
+                            !field.pressures(face).empty();
+          errors.of_faces.push_back(scene.has_friction() ? multiplier_square(field, face, exact)
+                                                         : 0.);
+          friction += errors.of_faces.back();
+          pressure += face.condition->has_pressure() ? pressure_square(field, face, exact) : 0.;
+        }
+      });
   const MPI_Comm all = field.communicator();
   const DifferenceSquares sums = total(own, all);
   errors.energy = std::sqrt(sums.energy);

@@ -223,16 +223,16 @@ ContactStatics::ContactStatics(const PrimalSpace<3> &space, const DistributedVec
     loads[j] = std::abs(load) > 1e-11 * sizes[j] ? load : 0;
   }
   std::vector<ContactSpot> own, own_ends;
-  together(space.communicator(), // what limits friction is a function
-           [&]()
-           {
-             for (const ContactDofFace<3> &face : space.faces)
-             {
-               const auto spots = spots_of(face), corners = ends_of(face);
-               own.insert(own.end(), spots.begin(), spots.end());
-               own_ends.insert(own_ends.end(), corners.begin(), corners.end());
-             }
-           });
+  collectively(space.communicator(), // what limits friction is a function
+               [&]()
+               {
+                 for (const ContactDofFace<3> &face : space.faces)
+                 {
+                   const auto spots = spots_of(face), corners = ends_of(face);
+                   own.insert(own.end(), spots.begin(), spots.end());
+                   own_ends.insert(own_ends.end(), corners.begin(), corners.end());
+                 }
+               });
   on_mesh = gathered(own, space.communicator());
   ends = gathered(own_ends, space.communicator());
 }

@@ -57,7 +57,7 @@ double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const D
                  const unsigned int n_points)
 {
   const std::vector<ShapeTable<dim>> tables = tables_of<dim>(space.tables.degree, n_points);
-  return sum_together(
+  return sum_collectively(
       space.communicator(),
       [&]()
       {

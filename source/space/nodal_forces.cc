@@ -206,7 +206,7 @@ NodalForces<dim> NodalReactions<dim>::forces() const
       result.reactions.push_back({boundary, force, node.x});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
-  together(space.communicator(), [&]() { result.tractions = tractions(space); });
+  collectively(space.communicator(), [&]() { result.tractions = tractions(space); });
   return result;
 }
 } // namespace

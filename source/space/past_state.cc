@@ -100,11 +100,11 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
   const auto in_state = [&](const PastState<dim> &state)
   {
     std::vector<double> sums(4, 0.), all(4);
-    together(space.communicator(),
-             [&]() {
-               sums[0] =
-                   work_of_supports<dim>(state, last ? last->scene.get() : nullptr, *next.scene);
-             });
+    collectively(space.communicator(),
+                 [&]() {
+                   sums[0] = work_of_supports<dim>(state, last ? last->scene.get() : nullptr,
+                                                   *next.scene);
+                 });
     for (unsigned int k = 0; k < space.contact.size(); ++k)
     {
       const ContactVector<dim> force = space.contact[k].area * state.traction[k];

@@ -23,7 +23,7 @@ template <int dim>
 bool agreed_rests_on_contact(const Scene<dim> &scene, MPI_Comm communicator)
 {
   bool result = false;
-  together(communicator, [&]() { result = rests_on_contact(scene); });
+  collectively(communicator, [&]() { result = rests_on_contact(scene); });
   return result;
 }
 } // namespace
@@ -35,10 +35,10 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
       rests_on_contact(agreed_rests_on_contact(scene, mesh.get_communicator())), dof_handler(mesh)
 {
   number();
-  together(communicator(),
-           [&]() { constrain_supports(scene, dof_handler, relevant, constraints); });
+  collectively(communicator(),
+               [&]() { constrain_supports(scene, dof_handler, relevant, constraints); });
   make_consistent(constraints, owned, relevant, communicator());
-  together(communicator(), [this]() { find_contact(); });
+  collectively(communicator(), [this]() { find_contact(); });
   types::global_dof_index constrained = 0;
   for (const auto i : owned)
     constrained += constraints.is_constrained(i);

@@ -49,7 +49,7 @@ template <int dim>
 PrimalSystem<dim>::PrimalSystem(const PrimalSpace<dim> &space)
     : f(space.ghosted_vector()), space(space), stiffness(space)
 {
-  together(space.communicator(), [this]() { assemble_loads(); });
+  collectively(space.communicator(), [this]() { assemble_loads(); });
   f.compress(VectorOperation::add);
   DistributedVector owned_part = space.owned_vector();
   owned_part.copy_locally_owned_data_from(f);
@@ -167,16 +167,16 @@ double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 template <int dim>
 double PrimalSystem<dim>::work(const DistributedVector &u) const
 {
-  return sum_together(space.communicator(),
-                      [&]()
-                      {
-                        double sum = 0;
-                        for (const Cell &cell : space.dof_handler.active_cell_iterators())
-                          if (cell->is_locally_owned() &&
-                              (space.scene.has_body_force() || cell->at_boundary()))
-                            sum += product(load(cell), space.field(cell, u));
-                        return sum;
-                      });
+  return sum_collectively(space.communicator(),
+                          [&]()
+                          {
+                            double sum = 0;
+                            for (const Cell &cell : space.dof_handler.active_cell_iterators())
+                              if (cell->is_locally_owned() &&
+                                  (space.scene.has_body_force() || cell->at_boundary()))
+                                sum += product(load(cell), space.field(cell, u));
+                            return sum;
+                          });
 }
 
 template <int dim>
@@ -184,7 +184,7 @@ typename PrimalSystem<dim>::NodalForces
 PrimalSystem<dim>::nodal_forces(const DistributedVector &u) const
 {
   NodalForces forces{space.ghosted_vector(), space.ghosted_vector()};
-  together(space.communicator(), [&]() { add_nodal_forces(u, forces); });
+  collectively(space.communicator(), [&]() { add_nodal_forces(u, forces); });
   for (DistributedVector *const vector : {&forces.internal, &forces.loads})
   {
     vector->compress(VectorOperation::add);

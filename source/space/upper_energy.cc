@@ -43,15 +43,15 @@ template <int dim>
 double missed_displacement(const PrimalSpace<dim> &space, const DistributedVector &u)
 {
   double largest = 0;
-  together(space.communicator(),
-           [&]()
-           {
-             for (const auto &cell : space.dof_handler.active_cell_iterators())
-               for (const unsigned int face : cell->face_indices())
-                 if (cell->is_locally_owned() && cell->at_boundary(face) &&
-                     space.condition(cell, face).has_displacement())
-                   largest = std::max(largest, missed_on<dim>(cell, face, space, u));
-           });
+  collectively(space.communicator(),
+               [&]()
+               {
+                 for (const auto &cell : space.dof_handler.active_cell_iterators())
+                   for (const unsigned int face : cell->face_indices())
+                     if (cell->is_locally_owned() && cell->at_boundary(face) &&
+                         space.condition(cell, face).has_displacement())
+                       largest = std::max(largest, missed_on<dim>(cell, face, space, u));
+               });
   return Utilities::MPI::max(largest, space.communicator());
 }
 } // namespace

@@ -6,8 +6,8 @@
 #include <hpvi/output/output.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/closed_forms/stick_slip.h>
+#include <hpvi/reader/scene_aliases.h>
 #include <hpvi/reader/scene_entries.h>
-#include <hpvi/reader/scene_hints.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <cmath>
@@ -179,13 +179,13 @@ TEST(Hints, NameEntriesThatThereAre)
   for (const int dim : {2, 3})
   {
     std::vector<std::string> paths, words;
-    FreeNames names;
+    UserNames names;
     if (dim == 2)
       names.pairs = {"joint"};
     names.sides = boundary_names(dim);
     for (const Entry &entry : scene_entries(dim, names))
       paths.push_back(entry.path());
-    for (const Hint &hint : scene_hints(dim, boundary_names(dim), {"inside"}))
+    for (const Alias &hint : scene_aliases(dim, boundary_names(dim), {"inside"}))
     {
       if (hint.in.empty()) // else it is told before the others
         words.insert(words.end(), hint.words.begin(), hint.words.end());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Pictures of scenes: parts of boundaries on any mesh, materials, texts that find room.
 #include <gtest/gtest.h>
-#include <hpvi/output/boundary_part.h>
 #include <hpvi/output/chart.h>
 #include <hpvi/output/drawing.h>
+#include <hpvi/output/outline_part.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
 
@@ -44,7 +44,7 @@ TEST(BoundaryParts, EdgesOfOneNameNeedNotHangTogether)
   make_square(mesh);
   std::vector<double> lengths(5);
   std::vector<unsigned int> n_parts(5);
-  for (const BoundaryPart &part : boundary_parts(mesh))
+  for (const OutlinePart &part : boundary_parts(mesh))
   {
     lengths[part.boundary] += part.length();
     ++n_parts[part.boundary];
@@ -58,9 +58,9 @@ TEST(BoundaryParts, NormalsPointOutwards)
   Triangulation<2> mesh;
   GridGenerator::parallelogram(mesh, {Point<2>(2., 1.), Point<2>(-1., 2.)});
   mesh.refine_global(2);
-  for (const BoundaryPart &part : boundary_parts(mesh))
+  for (const OutlinePart &part : boundary_parts(mesh))
   {
-    const BoundaryPlace place = part.at(0.3 * part.length());
+    const OutlinePlace place = part.at(0.3 * part.length());
     EXPECT_GT(place.normal * (place.x - Point<2>(0.5, 1.5)), 0.);
     EXPECT_NEAR(place.normal.norm(), 1., 1e-14);
   }
@@ -73,7 +73,7 @@ TEST(BoundaryParts, ARoundHoleIsOnePart)
   GridGenerator::hyper_cube_with_cylindrical_hole(mesh, 0.3, 1.);
   mesh.refine_global(2);
   unsigned int n_closed = 0;
-  for (const BoundaryPart &part : boundary_parts(mesh))
+  for (const OutlinePart &part : boundary_parts(mesh))
     if (part.points().front().distance(part.points().back()) < 1e-12)
     {
       ++n_closed;

@@ -18,15 +18,15 @@ using DistributedVector = dealii::LinearAlgebra::distributed::Vector<double>;
  * throw what the first one had to say: InputError, NumericalFailure or std::runtime_error with one
  * line. So none waits for another that has given up.
  */
-void together(MPI_Comm communicator, const std::function<void()> &work);
+void collectively(MPI_Comm communicator, const std::function<void()> &work);
 
 /** Of those of @p communicator; 1 in a program that has not started MPI. */
 unsigned int n_processes(MPI_Comm communicator);
 
 unsigned int rank_of(MPI_Comm communicator); ///< likewise 0
 
-/** The sum over all processes of what @p work, done together(), returns on each. */
-double sum_together(MPI_Comm communicator, const std::function<double()> &work);
+/** The sum over all processes of what @p work, done collectively(), returns on each. */
+double sum_collectively(MPI_Comm communicator, const std::function<double()> &work);
 } // namespace hpvi
 
 #endif

@@ -65,7 +65,7 @@ struct StepStages
   StepStages(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend)
       : scene(scene), backend(std::move(backend)), true_error(scene), mean_intervals(scene)
   {
-    together(this->backend->communicator, [&]() { data = data_scale(scene); });
+    collectively(this->backend->communicator, [&]() { data = data_scale(scene); });
   }
 
   void set_callback(const std::function<void(const Progress &)> &listener);

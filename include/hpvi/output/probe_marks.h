@@ -14,7 +14,7 @@ template <int dim>
 std::string probes_in_words(const Scene<dim> &scene);
 
 /** A cross at a point, a disc as it is, a line along a boundary inside of the body, a row of dots; each with its name. */
-void draw_probes(SceneSheet &sheet, const std::vector<BoundaryPart> &parts);
+void draw_probes(SceneSheet &sheet, const std::vector<OutlinePart> &parts);
 } // namespace hpvi
 
 #endif

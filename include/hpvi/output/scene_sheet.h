@@ -2,8 +2,8 @@
 #ifndef hpvi_scene_sheet_h
 #define hpvi_scene_sheet_h
 
-#include <hpvi/output/boundary_part.h>
 #include <hpvi/output/drawing.h>
+#include <hpvi/output/outline_part.h>
 #include <hpvi/scene/scene.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -41,16 +41,16 @@ public:
 
   PagePoint page(const dealii::Point<2> &x) const;
   PageVector direction(const dealii::Tensor<1, 2> &vector) const; ///< of the same length
-  double length(const BoundaryPart &part) const;                  ///< [pixels]
+  double length(const OutlinePart &part) const;                   ///< [pixels]
 
   /** At a share in [0,1] of its length. */
-  Station station(const BoundaryPart &part, double share) const;
+  Station station(const OutlinePart &part, double share) const;
 
   /** Equidistant, @p spacing pixels or so from each other; @p with_ends: at both ends, else half as far from them. */
-  std::vector<Station> stations(const BoundaryPart &part, double spacing, bool with_ends) const;
+  std::vector<Station> stations(const OutlinePart &part, double spacing, bool with_ends) const;
 
   /** So many that nothing narrow is missed. */
-  std::vector<Station> sample(const BoundaryPart &part) const;
+  std::vector<Station> sample(const OutlinePart &part) const;
 
   const Scene<2> &scene;
   const dealii::BoundingBox<2> body;
@@ -63,10 +63,10 @@ public:
 /** A part of a boundary, with what the scene says of it. */
 struct MarkedPart
 {
-  const BoundaryPart &part;
+  const OutlinePart &part;
   const BoundaryCondition<2> &condition;
-  bool has_words;                           ///< the longest part of its boundary, where sizes stand
-  std::vector<const BoundaryPart *> pieces; ///< all parts of its boundary: what words are about
+  bool has_words;                          ///< the longest part of its boundary, where sizes stand
+  std::vector<const OutlinePart *> pieces; ///< all parts of its boundary: what words are about
 };
 
 /** A vector of functions at a point, where null is 0. */

@@ -12,8 +12,8 @@ bool may_have_company();
 unsigned int n_started_processes(); ///< 1 while MPI does not run
 bool is_first_process();
 
-/** together(), of all processes where MPI runs. */
-void agree(const std::function<void()> &work);
+/** collectively(), of all processes where MPI runs. */
+void in_all_processes(const std::function<void()> &work);
 } // namespace hpvi
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef hpvi_bodies_reader_h
 #define hpvi_bodies_reader_h
 
-#include <hpvi/reader/free_names.h>
+#include <hpvi/reader/user_names.h>
 #include <hpvi/scene/scene.h>
 
 #include <optional>
@@ -21,7 +21,7 @@ std::vector<Entry> pair_entries(const std::string &name);
  * Takes the bodies and the pairs of sides that touch: @p scene gets the geometry, a boundary of each side, and behind them
  * of each pair the two parts of its sides that face each other, where grid lines of boxes are added if they end between two.
  */
-void read_bodies(const Parameters &parameters, const FreeNames &names, Scene<2> &scene);
+void read_bodies(const Parameters &parameters, const UserNames &names, Scene<2> &scene);
 
 /** Where @p part of a side is, without what pairs that name it take; null: they take it all. */
 Expression<2> rest_of_part(const Parameters &parameters, const Scene<2> &scene,

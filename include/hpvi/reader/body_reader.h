@@ -2,7 +2,7 @@
 #ifndef hpvi_body_reader_h
 #define hpvi_body_reader_h
 
-#include <hpvi/reader/free_names.h>
+#include <hpvi/reader/user_names.h>
 #include <hpvi/scene/scene.h>
 
 #include <map>
@@ -19,7 +19,7 @@ class Parameters;
  * the grid lines at which materials and parts end.
  */
 template <int dim>
-void read_body(const Parameters &parameters, const FreeNames &names, Scene<dim> &scene);
+void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> &scene);
 
 /** The entry `Where` of @p section, tried at @p points: what says where something is knows neither time nor material. */
 template <int dim>

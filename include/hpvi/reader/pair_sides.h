@@ -2,7 +2,7 @@
 #ifndef hpvi_pair_sides_h
 #define hpvi_pair_sides_h
 
-#include <hpvi/reader/free_names.h>
+#include <hpvi/reader/user_names.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_search.h>
 #include <hpvi/scene/scene.h>
@@ -27,7 +27,7 @@ struct NamedSide
 };
 
 /** Of all bodies, and behind them the parts in @p names. */
-std::vector<NamedSide> named_sides(const Parameters &parameters, const FreeNames &names,
+std::vector<NamedSide> named_sides(const Parameters &parameters, const UserNames &names,
                                    const std::vector<Scene<2>> &singles);
 
 /** The two sides of a pair before the bodies are one geometry. */

@@ -2,8 +2,8 @@
 #ifndef hpvi_scene_entries_h
 #define hpvi_scene_entries_h
 
-#include <hpvi/reader/free_names.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/user_names.h>
 
 #include <algorithm>
 #include <string>
@@ -100,7 +100,7 @@ inline const std::string friction_needs_contact =
  * All entries of a scene file in the order in which they are printed: names, defaults, admissible
  * values and documentation. @p names are those that the scene gives to sections of its own.
  */
-std::vector<Entry> scene_entries(int dim, const FreeNames &names);
+std::vector<Entry> scene_entries(int dim, const UserNames &names);
 
 /** @p text about a scene in the plane, for one in space: x, y and z, and components of three. */
 std::string in_space(std::string text);

@@ -33,7 +33,7 @@ void check_value(const Scene<dim> &scene, const std::string &section, const std:
                  const std::string &shown)
 {
   static const std::vector<Entry> entries = scene_entries(
-      dim, FreeNames{{}, {}, boundary_names(dim)}); // a history asks for each load step
+      dim, UserNames{{}, {}, boundary_names(dim)}); // a history asks for each load step
   for (const Entry &entry : entries)
     if (entry.section == section && entry.name == name)
       if (const std::string objection = entry.objection(shown); !objection.empty())

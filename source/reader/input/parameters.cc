@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/reader/input/parameters.h>
 
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 
 #include <deal.II/base/utilities.h>
@@ -90,10 +90,10 @@ void Parameters::in_section(const std::string &section, const Action &action)
     prm.leave_subsection();
 }
 
-Parameters::Parameters(std::vector<Entry> all_entries, std::vector<Hint> all_hints,
+Parameters::Parameters(std::vector<Entry> all_entries, std::vector<Alias> all_aliases,
                        const std::string &file)
-    : entries(std::move(all_entries)), hints(std::move(all_hints)), file(file),
-      shown(shown_file(file))
+    : entries(std::move(all_entries)), aliases(std::move(all_aliases)), file(file),
+      shown(display_name(file))
 {
   for (const Entry &entry : entries)
     in_section(entry.section,
@@ -206,7 +206,7 @@ std::string Parameters::standing_for(const std::string &section) const
 std::shared_ptr<const Parameters> Parameters::with_section(const std::string &section,
                                                            const std::string &other) const
 {
-  const auto result = std::make_shared<Parameters>(entries, hints, file);
+  const auto result = std::make_shared<Parameters>(entries, aliases, file);
   for (const Entry &entry : entries)
     result->set(entry.section, entry.name, text(entry.section, entry.name));
   result->origins = origins;
@@ -261,7 +261,7 @@ const Entry *Parameters::known_entry(const Assignment &assignment) const
   const auto entry = std::find_if(entries.begin(), entries.end(), is_there);
   if (entry != entries.end())
     return &*entry;
-  const Remedies remedies(entries, hints);
+  const Remedies remedies(entries, aliases);
   if (!assignment.name.empty() || !remedies.knows_section(assignment.section))
     remedies.refuse(assignment);
   return nullptr;

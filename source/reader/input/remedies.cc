@@ -46,14 +46,14 @@ std::string nearest(const std::string &written, const std::vector<std::string> &
 }
 } // namespace
 
-bool Hint::is_for(const std::string &section) const
+bool Alias::is_for(const std::string &section) const
 {
   const bool is_kind = !in.empty() && in.back() == ' ';
   return in.empty() || section == in || (is_kind && section.rfind(in, 0) == 0);
 }
 
-Remedies::Remedies(const std::vector<Entry> &entries, const std::vector<Hint> &hints)
-    : entries(entries), hints(hints)
+Remedies::Remedies(const std::vector<Entry> &entries, const std::vector<Alias> &aliases)
+    : entries(entries), aliases(aliases)
 {
 }
 
@@ -102,7 +102,7 @@ std::string Remedies::entries_called(const std::string &name) const
 
 std::string Remedies::hint(const std::string &section, const std::string &word) const
 {
-  for (const Hint &hint : hints)
+  for (const Alias &hint : aliases)
     if (hint.is_for(section) &&
         (hint.words.empty() ||
          std::find(hint.words.begin(), hint.words.end(), lower_case(word)) != hint.words.end()))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/shapes/box.h>
 #include <hpvi/reader/shapes/half_disc.h>
@@ -266,7 +266,7 @@ SideNames names_of_sides(const std::string &file,
   }
   catch (const InputError &error) // of a mesh, whose file it names
   {
-    throw InputError(shown_file(file) + ": " + section + "/File: " + error.what());
+    throw InputError(display_name(file) + ": " + section + "/File: " + error.what());
   }
 }
 

@@ -33,8 +33,8 @@ std::string storable(std::string text);
 class Parameters
 {
 public:
-  /** All entries have their defaults. @p hints and @p file are for messages. */
-  Parameters(std::vector<Entry> entries, std::vector<Hint> hints, const std::string &file);
+  /** All entries have their defaults. @p aliases and @p file are for messages. */
+  Parameters(std::vector<Entry> entries, std::vector<Alias> aliases, const std::string &file);
 
   /** Take the assignments of the file, then @p overrides, pairs "Section/Entry", "value". */
   void read(const std::vector<std::pair<std::string, std::string>> &overrides);
@@ -85,7 +85,7 @@ private:
   const std::string &own(const std::string &section) const; ///< with_section()
 
   const std::vector<Entry> entries;
-  const std::vector<Hint> hints;
+  const std::vector<Alias> aliases;
   const std::string file, shown; ///< as it is, and as messages name it
   dealii::ParameterHandler prm;
   std::map<std::string, std::string> origins;

@@ -28,7 +28,7 @@ struct Entry
 };
 
 /** What to write in the place of names that people try first and no file has. */
-struct Hint
+struct Alias
 {
   std::vector<std::string> words; ///< of entries and subsections, in lower case; none: any entry
   std::string remedy;             ///< completes "is unknown; ..."
@@ -43,7 +43,7 @@ class Remedies
 {
 public:
   /** Both live at least as long as this. */
-  Remedies(const std::vector<Entry> &entries, const std::vector<Hint> &hints);
+  Remedies(const std::vector<Entry> &entries, const std::vector<Alias> &aliases);
 
   bool knows_section(const std::string &section) const;
 
@@ -63,7 +63,7 @@ private:
   std::string entries_called(const std::string &name) const;
 
   const std::vector<Entry> &entries;
-  const std::vector<Hint> &hints;
+  const std::vector<Alias> &aliases;
 };
 } // namespace hpvi
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
-#include <hpvi/output/axes.h>
+#include <hpvi/output/chart_axes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/parameter_file.h>
-#include <hpvi/base/shown_file.h>
 #include <hpvi/base/text.h>
-#include <hpvi/reader/free_names.h>
+#include <hpvi/reader/user_names.h>
 
 #include <algorithm>
 #include <cctype>
@@ -58,7 +58,7 @@ all_assignments(const std::string &file,
   for (const auto &[path, value] : overrides)
     if (const std::size_t slash = path.rfind('/'); slash != std::string::npos)
       all.push_back({single_spaced(path.substr(0, slash)), single_spaced(path.substr(slash + 1)),
-                     value, shown_file(file) + " (--set)"});
+                     value, display_name(file) + " (--set)"});
   return all;
 }
 } // namespace
@@ -95,12 +95,12 @@ body_names(const std::string &file,
   return result;
 }
 
-FreeNames free_names(const std::string &file,
+UserNames user_names(const std::string &file,
                      const std::vector<std::pair<std::string, std::string>> &overrides,
                      const std::vector<std::string> &sides)
 {
   const std::vector<Assignment> all = all_assignments(file, overrides);
-  FreeNames result;
+  UserNames result;
   result.sides = sides;
   std::vector<std::string> known = sides;
   for (const Assignment &one : all)

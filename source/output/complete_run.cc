@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/version.h>
-#include <hpvi/output/finished_run.h>
+#include <hpvi/output/complete_run.h>
 #include <hpvi/reader/scene_reader.h>
 
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS // as the parser still does; silences its note
@@ -31,7 +31,7 @@ boost::property_tree::ptree summary_in(const std::filesystem::path &directory)
 }
 } // namespace
 
-bool is_finished_run(const std::filesystem::path &directory)
+bool is_complete_run(const std::filesystem::path &directory)
 {
   const boost::property_tree::ptree summary = summary_in(directory);
   return summary.get<std::string>("status", "") == "done" &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_axes_h
-#define hpvi_axes_h
+#ifndef hpvi_chart_axes_h
+#define hpvi_chart_axes_h
 
 #include <string>
 #include <vector>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/output/last_word.h>
+#include <hpvi/output/stop_reason.h>
 #include <hpvi/reader/scene_reader.h>
 
 namespace hpvi
 {
-std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivity,
-                      const bool has_bound)
+std::string stop_reason(const std::string &stopped_by, const Adaptivity &adaptivity,
+                        const bool has_bound)
 {
   if (stopped_by == "round-off")
     return "stopped: exact to round-off";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/shown_file.h>
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/text.h>
 
 namespace hpvi
 {
-std::string shown_file(const std::string &file)
+std::string display_name(const std::string &file)
 {
   return file.empty() ? "scene" : printable(file, 400);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_free_names_h
-#define hpvi_free_names_h
+#ifndef hpvi_user_names_h
+#define hpvi_user_names_h
 
 #include <string>
 #include <utility>
@@ -9,7 +9,7 @@
 namespace hpvi
 {
 /** Of sections that a scene has beside those of all scenes, in the order of the file. */
-struct FreeNames
+struct UserNames
 {
   std::vector<std::string> parts;     ///< `Boundary NAME` that says On which side it lies
   std::vector<std::string> materials; ///< `Material NAME`
@@ -22,7 +22,7 @@ struct FreeNames
   std::vector<std::string> probes = {};     ///< `Probe NAME`
 };
 
-/** The bodies that @p file and @p overrides open; of one body none. Throws as free_names(). */
+/** The bodies that @p file and @p overrides open; of one body none. Throws as user_names(). */
 std::vector<std::string>
 body_names(const std::string &file,
            const std::vector<std::pair<std::string, std::string>> &overrides);
@@ -31,7 +31,7 @@ body_names(const std::string &file,
  * What @p file and @p overrides, pairs "Section/Entry" and value, open. Throws InputError for names of other
  * than letters, digits, '_', '-' and blanks, and for two that differ in case alone.
  */
-FreeNames free_names(const std::string &file,
+UserNames user_names(const std::string &file,
                      const std::vector<std::pair<std::string, std::string>> &overrides,
                      const std::vector<std::string> &sides);
 } // namespace hpvi

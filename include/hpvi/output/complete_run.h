@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_finished_run_h
-#define hpvi_finished_run_h
+#ifndef hpvi_complete_run_h
+#define hpvi_complete_run_h
 
 #include <hpvi/scene/scene.h>
 
@@ -11,7 +11,7 @@
 namespace hpvi
 {
 /** Does summary.json in @p directory say that this version of the program is done there? */
-bool is_finished_run(const std::filesystem::path &directory);
+bool is_complete_run(const std::filesystem::path &directory);
 
 /** Of each mesh file, and of the reference solution, its entry and what is in it: "Geometry/File = content checksum 0a1b2c3d". */
 template <int dim>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef hpvi_last_word_h
-#define hpvi_last_word_h
+#ifndef hpvi_stop_reason_h
+#define hpvi_stop_reason_h
 
 #include <hpvi/scene/scene.h>
 
@@ -9,7 +9,8 @@
 namespace hpvi
 {
 /** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
-std::string last_word(const std::string &stopped_by, const Adaptivity &adaptivity, bool has_bound);
+std::string stop_reason(const std::string &stopped_by, const Adaptivity &adaptivity,
+                        bool has_bound);
 } // namespace hpvi
 
 #endif

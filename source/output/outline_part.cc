@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/output/boundary_part.h>
 #include <hpvi/output/cell_outline.h>
+#include <hpvi/output/outline_part.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,24 +55,24 @@ bool continues(const Edge &edge, const Edge &next)
 }
 } // namespace
 
-BoundaryPart::BoundaryPart(const types::boundary_id boundary, const std::vector<Point<2>> &points)
+OutlinePart::OutlinePart(const types::boundary_id boundary, const std::vector<Point<2>> &points)
     : boundary(boundary), vertices(points), distances{0.}
 {
   for (std::size_t k = 1; k < points.size(); ++k)
     distances.push_back(distances.back() + points[k].distance(points[k - 1]));
 }
 
-double BoundaryPart::length() const
+double OutlinePart::length() const
 {
   return distances.back();
 }
 
-const std::vector<Point<2>> &BoundaryPart::points() const
+const std::vector<Point<2>> &OutlinePart::points() const
 {
   return vertices;
 }
 
-BoundaryPlace BoundaryPart::at(const double distance) const
+OutlinePlace OutlinePart::at(const double distance) const
 {
   const auto after = std::upper_bound(distances.begin() + 1, distances.end() - 1, distance);
   const std::size_t k = after - distances.begin();
@@ -86,7 +86,7 @@ BoundaryPlace BoundaryPart::at(const double distance) const
   return {x, normal / normal.norm()};
 }
 
-std::vector<BoundaryPart> boundary_parts(const Triangulation<2> &mesh)
+std::vector<OutlinePart> boundary_parts(const Triangulation<2> &mesh)
 {
   const std::vector<Edge> edges = boundary_edges(mesh);
   std::multimap<unsigned int, const Edge *> starting, ending;
@@ -105,7 +105,7 @@ std::vector<BoundaryPart> boundary_parts(const Triangulation<2> &mesh)
         return other->second;
     return nullptr;
   };
-  std::vector<BoundaryPart> parts;
+  std::vector<OutlinePart> parts;
   for (const Edge &edge : edges)
   {
     if (done.count(&edge))

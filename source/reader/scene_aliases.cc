@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/reader/scene_aliases.h>
 #include <hpvi/reader/scene_entries.h>
-#include <hpvi/reader/scene_hints.h>
 
 namespace hpvi
 {
 namespace
 {
-std::vector<Hint> hints_about_body()
+std::vector<Alias> hints_about_body()
 {
   const std::string elasticity = "\"Material/Young's modulus\" and \"Material/Poisson's ratio\"";
   return {{{"e", "young", "modulus", "elastic modulus", "modulus of elasticity", "stiffness"},
@@ -29,7 +29,7 @@ std::vector<Hint> hints_about_body()
           {{"name", "description"}, "set \"Title\", outside of subsections"}};
 }
 
-std::vector<Hint> hints_about_conditions()
+std::vector<Alias> hints_about_conditions()
 {
   return {
       {{"force", "forces", "load", "loads", "surface load", "line load", "point load", "neumann",
@@ -58,7 +58,7 @@ std::vector<Hint> hints_about_conditions()
        "contact has no constant to choose; remove it"}};
 }
 
-std::vector<Hint> hints_about_method()
+std::vector<Alias> hints_about_method()
 {
   return {{{"degree", "order", "polynomial degree", "element order", "p", "finite element"},
            "set \"Adaptivity/Start degree\""},
@@ -80,7 +80,7 @@ std::vector<Hint> hints_about_method()
 }
 
 /** Between bodies, where the names of entries are others. */
-std::vector<Hint> hints_about_pairs()
+std::vector<Alias> hints_about_pairs()
 {
   return {{{"contact", "contact type", "type", "unilateral", "bilateral", "tangential", "tied",
             "glued", "frictionless"},
@@ -95,9 +95,9 @@ std::vector<Hint> hints_about_pairs()
 }
 
 /** Of curves inside of a body, which have a shape and nothing else. */
-std::vector<Hint> hints_about_curves_inside(const std::vector<std::string> &interfaces)
+std::vector<Alias> hints_about_curves_inside(const std::vector<std::string> &interfaces)
 {
-  std::vector<Hint> result;
+  std::vector<Alias> result;
   for (const std::string &curve : interfaces)
     result.push_back({{},
                       "it is a curve inside of the body, which has Curve alone, for nothing acts "
@@ -135,7 +135,7 @@ const std::vector<std::string> words_of_orthotropy = {"orthotropic",
                                                       "theta",
                                                       "material orientation"};
 
-std::vector<Hint> hints_in_plane()
+std::vector<Alias> hints_in_plane()
 {
   return {
       {words_of_orthotropy,
@@ -160,7 +160,7 @@ std::vector<Hint> hints_in_plane()
        "set \"Material/Plane\" to stress, strain or axisymmetric"}};
 }
 
-std::vector<Hint> hints_in_space()
+std::vector<Alias> hints_in_space()
 {
   std::vector<std::string> orthotropic = words_of_orthotropy;
   for (const char *const entry : {"young's moduli", "poisson's ratios", "shear moduli", "angle"})
@@ -191,20 +191,21 @@ std::vector<Hint> hints_in_space()
 }
 } // namespace
 
-std::vector<Hint> scene_hints(const int dim, const std::vector<std::string> &boundaries,
-                              const std::vector<std::string> &interfaces)
+std::vector<Alias> scene_aliases(const int dim, const std::vector<std::string> &boundaries,
+                                 const std::vector<std::string> &interfaces)
 {
-  std::vector<Hint> hints{
+  std::vector<Alias> aliases{
       {{"boundary", "boundaries", "boundary condition", "boundary conditions", "bc"},
        "conditions stand in the subsections Boundary " + listed(boundaries, "and")}};
-  for (const std::vector<Hint> &some :
-       {hints_about_curves_inside(interfaces), dim == 2 ? hints_about_pairs() : std::vector<Hint>(),
+  for (const std::vector<Alias> &some :
+       {hints_about_curves_inside(interfaces),
+        dim == 2 ? hints_about_pairs() : std::vector<Alias>(),
         dim == 2 ? hints_in_plane() : hints_in_space(), hints_about_body(),
         hints_about_conditions(), hints_about_method()})
-    hints.insert(hints.end(), some.begin(), some.end());
-  for (Hint &hint : hints)
+    aliases.insert(aliases.end(), some.begin(), some.end());
+  for (Alias &hint : aliases)
     if (dim == 3)
       hint.remedy = in_space(hint.remedy);
-  return hints;
+  return aliases;
 }
 } // namespace hpvi
