@@ -81,25 +81,25 @@ cholmod_factor *Structure::symbolic_factor(cholmod_common &common) const
 } // namespace
 
 Elimination::Elimination(const cholmod_sparse &A, const EliminationHints &hints,
-                         const std::vector<unsigned int> &kept, cholmod_common &common)
+                         const std::vector<unsigned int> &interface, cholmod_common &common)
 {
-  gather(A, hints.alike);
-  order(hints.stage, kept, common);
+  gather(A, hints.supervariables);
+  order(hints.stage, interface, common);
   if (common.status == CHOLMOD_OK)
     expand();
 }
 
 /** The first unknown of a class stands for it. */
-void Elimination::gather(const cholmod_sparse &A, const std::vector<unsigned int> &alike)
+void Elimination::gather(const cholmod_sparse &A, const std::vector<unsigned int> &supervariables)
 {
   const unsigned int n = A.ncol;
   std::vector<unsigned int> own;
-  if (alike.empty())
+  if (supervariables.empty())
   {
     own.resize(n);
     std::iota(own.begin(), own.end(), 0);
   }
-  const std::vector<unsigned int> &of = alike.empty() ? own : alike;
+  const std::vector<unsigned int> &of = supervariables.empty() ? own : supervariables;
   n_classes = 1 + *std::max_element(of.begin(), of.end());
   first.assign(n_classes + 1, 0);
   for (const unsigned int number : of)
@@ -139,23 +139,23 @@ cholmod_sparse Elimination::as_cholmod()
 
 // CAMD is a minimum degree ordering under constraints: group by group, here stage by stage, then the unknowns that are kept.
 void Elimination::order(const std::vector<unsigned int> &stage,
-                        const std::vector<unsigned int> &kept, cholmod_common &common)
+                        const std::vector<unsigned int> &interface, cholmod_common &common)
 {
   const int last = stage.empty() ? 1 : 1 + *std::max_element(stage.begin(), stage.end());
   std::vector<int> groups(n_classes, 0);
-  if (kept.size() <
+  if (interface.size() <
       member.size()) // else all are in one group, and CAMD wants its number to be below n
     for (unsigned int k = 0; k < n_classes; ++k)
     {
       const unsigned int unknown = member[first[k]];
-      if (std::binary_search(kept.begin(), kept.end(), unknown))
+      if (std::binary_search(interface.begin(), interface.end(), unknown))
         groups[k] = last;
       else if (!stage.empty())
         groups[k] = stage[unknown];
     }
   class_order.resize(n_classes);
   cholmod_sparse matrix = as_cholmod();
-  if (kept.empty() && stage.empty() && member.size() >= dissected)
+  if (interface.empty() && stage.empty() && member.size() >= dissected)
     cholmod_metis(&matrix, nullptr, 0, /*postorder=*/true, class_order.data(), &common);
   else
     cholmod_camd(&matrix, nullptr, 0, groups.data(), class_order.data(), &common);
@@ -174,7 +174,7 @@ void Elimination::expand()
 
 cholmod_factor *Elimination::analyse(cholmod_common &common)
 {
-  // The order is taken as it is: a postordering could move kept unknowns away from the end.
+  // The order is taken as it is: a postordering could move interface dofs away from the end.
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = false;

@@ -60,10 +60,11 @@ struct LinearSolver::Factor
   Factor &operator=(const Factor &) = delete;
 
   void order_unknowns(const cholmod_sparse &matrix, const EliminationHints &hints,
-                      const std::vector<unsigned int> &kept);
+                      const std::vector<unsigned int> &interface);
   void analyse(const cholmod_sparse &matrix, double more_bytes);
-  void compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept, double more_bytes,
-               const std::vector<Stabilisation> &stabilisation, const EliminationHints &hints);
+  void compute(const SymmetricMatrix &A, const std::vector<unsigned int> &interface,
+               double more_bytes, const std::vector<Stabilisation> &stabilisation,
+               const EliminationHints &hints);
   void check(const cholmod_common &of) const;
   void check() const
   {
@@ -95,20 +96,21 @@ cholmod_sparse as_cholmod(const SymmetricMatrix &A)
 
 // @sect3{Analysis and factorisation}
 //
-// <code>Elimination</code> finds an order that fills in little and takes the kept unknowns last.
+// <code>Elimination</code> finds an order that fills in little and takes the interface dofs last.
 // Dense blocks of columns, supernodes, make the factorisation one of dense algebra. Its size is
 // known after the symbolic analysis, and is compared with what memory is left before anything is
 // allocated. Another matrix on the same mesh needs none of that again.
 void LinearSolver::Factor::order_unknowns(const cholmod_sparse &matrix,
                                           const EliminationHints &hints,
-                                          const std::vector<unsigned int> &kept)
+                                          const std::vector<unsigned int> &interface)
 {
   permutation.resize(matrix.ncol); // for what check() says
-  elimination = std::make_unique<Elimination>(matrix, hints, kept, common);
+  elimination = std::make_unique<Elimination>(matrix, hints, interface, common);
   check();
   permutation = std::move(elimination->permutation);
-  for (std::size_t k = permutation.size() - kept.size(); k < permutation.size(); ++k)
-    order.push_back(std::lower_bound(kept.begin(), kept.end(), permutation[k]) - kept.begin());
+  for (std::size_t k = permutation.size() - interface.size(); k < permutation.size(); ++k)
+    order.push_back(std::lower_bound(interface.begin(), interface.end(), permutation[k]) -
+                    interface.begin());
 }
 
 void LinearSolver::Factor::analyse(const cholmod_sparse &matrix, const double more_bytes)
@@ -205,13 +207,13 @@ SymmetricMatrix square(const std::vector<std::pair<unsigned int, double>> &P, co
 }
 
 /** Kept unknowns and those that a term couples are not like others. */
-EliminationHints hints_with(EliminationHints hints, const std::vector<unsigned int> &kept,
+EliminationHints hints_with(EliminationHints hints, const std::vector<unsigned int> &interface,
                             const std::vector<Stabilisation> &stabilisation)
 {
-  if (hints.alike.empty())
+  if (hints.supervariables.empty())
     return hints;
-  Supervariables supervariables(std::move(hints.alike));
-  supervariables.split(kept);
+  Supervariables supervariables(std::move(hints.supervariables));
+  supervariables.split(interface);
   for (const Stabilisation &term : stabilisation)
   {
     std::vector<unsigned int> coupled;
@@ -219,7 +221,7 @@ EliminationHints hints_with(EliminationHints hints, const std::vector<unsigned i
       coupled.push_back(entry.first);
     supervariables.split(coupled);
   }
-  hints.alike = supervariables.numbers();
+  hints.supervariables = supervariables.numbers();
   return hints;
 }
 
@@ -242,7 +244,8 @@ struct SparseMatrix
 } // namespace
 
 /** Factors A with what stabilises it. */
-void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
+void LinearSolver::Factor::compute(const SymmetricMatrix &A,
+                                   const std::vector<unsigned int> &interface,
                                    const double more_bytes,
                                    const std::vector<Stabilisation> &stabilisation,
                                    const EliminationHints &hints)
@@ -264,7 +267,7 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
   SparseMatrix ordered(other);
   const bool is_new = !L;
   if (is_new)
-    order_unknowns(*whole, hints_with(hints, kept, stabilisation), kept);
+    order_unknowns(*whole, hints_with(hints, interface, stabilisation), interface);
   parallel_for_each(2, 1,
                     [&](const unsigned int k)
                     {
@@ -290,15 +293,15 @@ void LinearSolver::Factor::compute(const SymmetricMatrix &A, const std::vector<u
 // @sect3{The constructor}
 //
 // The solver is complete when it stands: ordering, factor, trailing block, and the order in which
-// the kept unknowns have come out.
-LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
+// the interface dofs have come out.
+LinearSolver::LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &interface,
                            const double more_bytes, const std::vector<Stabilisation> &stabilisation,
                            const EliminationHints &hints)
     : factor(std::make_unique<Factor>())
 {
   const OneThread one_thread;
   if (A.n() > 0)
-    factor->compute(A, kept, more_bytes, stabilisation, hints);
+    factor->compute(A, interface, more_bytes, stabilisation, hints);
 }
 
 void LinearSolver::factor_again(const SymmetricMatrix &A,
@@ -351,7 +354,7 @@ const LAPACKFullMatrix<double> &LinearSolver::kept_factor() const
   return factor->C;
 }
 
-const std::vector<unsigned int> &LinearSolver::kept_order() const
+const std::vector<unsigned int> &LinearSolver::interface_order() const
 {
   return factor->order;
 }

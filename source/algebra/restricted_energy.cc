@@ -43,8 +43,8 @@ RestrictedEnergy::RestrictedEnergy(const BorderedMatrix &A, const std::vector<bo
   for (const unsigned int unknown : all_kept)
     numbers.push_back(number[unknown]);
   solver = std::make_unique<const LinearSolver>(A_ff, numbers);
-  for (const unsigned int k : solver->kept_order())
-    kept.push_back(all_kept[k]);
+  for (const unsigned int k : solver->interface_order())
+    interface.push_back(all_kept[k]);
   y = solver->forward(f);
 }
 
@@ -83,20 +83,20 @@ SymmetricMatrix RestrictedEnergy::restrict(const BorderedMatrix &A,
 
 unsigned int RestrictedEnergy::place(const unsigned int unknown) const
 {
-  const auto found = std::find(kept.begin(), kept.end(), unknown);
-  return found == kept.end() ? none : found - kept.begin();
+  const auto found = std::find(interface.begin(), interface.end(), unknown);
+  return found == interface.end() ? none : found - interface.begin();
 }
 
 unsigned int RestrictedEnergy::n_kept() const
 {
-  return kept.size();
+  return interface.size();
 }
 
 FullMatrix<double> RestrictedEnergy::H() const
 {
   const LAPACKFullMatrix<double> &C = solver->kept_factor();
-  FullMatrix<double> result(kept.size(), kept.size());
-  for (unsigned int i = 0; i < kept.size(); ++i)
+  FullMatrix<double> result(interface.size(), interface.size());
+  for (unsigned int i = 0; i < interface.size(); ++i)
     for (unsigned int j = 0; j <= i; ++j)
     {
       for (unsigned int k = 0; k <= j; ++k)
@@ -109,10 +109,10 @@ FullMatrix<double> RestrictedEnergy::H() const
 Vector<double> RestrictedEnergy::h() const
 {
   const LAPACKFullMatrix<double> &C = solver->kept_factor();
-  Vector<double> result(kept.size());
-  for (unsigned int i = 0; i < kept.size(); ++i)
+  Vector<double> result(interface.size());
+  for (unsigned int i = 0; i < interface.size(); ++i)
     for (unsigned int k = 0; k <= i; ++k)
-      result[i] += C(i, k) * y[y.size() - kept.size() + k];
+      result[i] += C(i, k) * y[y.size() - interface.size() + k];
   return result;
 }
 
@@ -121,16 +121,16 @@ Vector<double> RestrictedEnergy::minimiser() const
   return all(y);
 }
 
-Vector<double> RestrictedEnergy::minimiser(const Vector<double> &kept_values) const
+Vector<double> RestrictedEnergy::minimiser(const Vector<double> &interface_values) const
 {
   const LAPACKFullMatrix<double> &C = solver->kept_factor();
   Vector<double> changed(y);
-  for (unsigned int k = 0; k < kept.size(); ++k)
+  for (unsigned int k = 0; k < interface.size(); ++k)
   {
-    double &entry = changed[y.size() - kept.size() + k];
+    double &entry = changed[y.size() - interface.size() + k];
     entry = 0.;
-    for (unsigned int i = k; i < kept.size(); ++i)
-      entry += C(i, k) * kept_values[i];
+    for (unsigned int i = k; i < interface.size(); ++i)
+      entry += C(i, k) * interface_values[i];
   }
   return all(changed);
 }

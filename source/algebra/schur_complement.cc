@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // With moments as unknowns and the contact last, the quadratic program (5.7) is read off the
-// factor. $B$ has entries on the kept unknowns only, so with $Y = C^{-1}B^T$ and the forward
+// factor. $B$ has entries on the interface dofs only, so with $Y = C^{-1}B^T$ and the forward
 // solution $y = L^{-1}f$
 //
 // $$S = BA^{-1}B^T = Y^TY, \qquad d = BA^{-1}f = Y^T y_{\text{last}}.$$
@@ -53,15 +53,15 @@ SchurComplement::SchurComplement(const LinearSolver &solver, const Vector<double
                                  const ConditionRows &rows)
     : solver(solver), schur_matrix(rows.n_rows())
 {
-  const unsigned int n_kept = rows.kept.size();
+  const unsigned int n_kept = rows.interface.size();
   if (n_kept == 0)
   {
     set_load(f, rows.prescribed);
     return;
   }
-  std::vector<unsigned int> row_of(n_kept); // of C and Y, by place in kept
+  std::vector<unsigned int> row_of(n_kept); // of C and Y, by place in interface
   for (unsigned int k = 0; k < n_kept; ++k)
-    row_of[solver.kept_order()[k]] = k;
+    row_of[solver.interface_order()[k]] = k;
   Y.reinit(n_kept, rows.n_rows());
   for (unsigned int i = 0; i < rows.n_rows(); ++i)
     for (const auto &[place, weight] : rows.B[i])
@@ -76,8 +76,8 @@ void SchurComplement::set_load(const Vector<double> &f, const Vector<double> &pr
   reduced_load = prescribed;
   if (Y.m() == 0)
     return;
-  const Vector<double> kept(y.end() - Y.m(), y.end());
-  Y.Tvmult(reduced_load, kept, /*adding=*/true);
+  const Vector<double> interface(y.end() - Y.m(), y.end());
+  Y.Tvmult(reduced_load, interface, /*adding=*/true);
 }
 
 const LAPACKFullMatrix<double> &SchurComplement::S() const

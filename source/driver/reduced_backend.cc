@@ -62,7 +62,8 @@ public:
     const auto same = [](const Stabilisation &a, const Stabilisation &b)
     { return a.P == b.P && a.stiffness == b.stiffness; };
     return known_A.column_start == A.column_start && known_A.row == A.row &&
-           known_A.value == A.value && known_rows.kept == rows.kept && known_rows.B == rows.B &&
+           known_A.value == A.value && known_rows.interface == rows.interface &&
+           known_rows.B == rows.B &&
            std::equal(known_stabilisation.begin(), known_stabilisation.end(), stabilisation.begin(),
                       stabilisation.end(), same);
   }

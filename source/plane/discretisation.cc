@@ -128,11 +128,11 @@ std::vector<Stabilisation> Discretisation<dim>::stabilisation() const
 template <int dim>
 LinearSolver Discretisation<dim>::factor() const
 {
-  const DenseWork dense{contact_rows.kept.size(), contact_rows.n_rows()};
+  const DenseWork dense{contact_rows.interface.size(), contact_rows.n_rows()};
   if (dense.n_multipliers > 0)
     require_memory(dense.bytes(), dense.name());
-  return LinearSolver(system.A, contact_rows.kept, dense.n_multipliers > 0 ? dense.bytes() : 0.,
-                      stabilisation(), system.hints);
+  return LinearSolver(system.A, contact_rows.interface,
+                      dense.n_multipliers > 0 ? dense.bytes() : 0., stabilisation(), system.hints);
 }
 
 template class Spaces<2>;

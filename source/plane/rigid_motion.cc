@@ -78,7 +78,7 @@ Vector<double> apply(const ConditionRows &rows, const Vector<double> &x)
   Vector<double> result(rows.n_rows());
   for (unsigned int i = 0; i < rows.n_rows(); ++i)
     for (const auto &[place, weight] : rows.B[i])
-      result[i] += weight * x[rows.kept[place]];
+      result[i] += weight * x[rows.interface[place]];
   return result;
 }
 } // namespace
@@ -187,11 +187,11 @@ void RigidMotions<dim>::stabilise_seen(const ConditionRows &rows,
   inverse_stiffness.reinit(n_seen(), n_seen());
   for (unsigned int m = 0; m < n_seen(); ++m)
   {
-    Vector<double> P(rows.kept.size()); // B' W^-1 G, the mean along R over the contact
+    Vector<double> P(rows.interface.size()); // B' W^-1 G, the mean along R over the contact
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
       for (const auto &[place, weight] : rows.B[i])
         P[place] += weight * equations.G(i, m) / multipliers[i].weight;
-    terms.push_back(stabilise(A, R[m], rows.kept, P));
+    terms.push_back(stabilise(A, R[m], rows.interface, P));
     double product = 0;
     for (const auto &[unknown, value] : terms.back().P)
       product += value * R[m][unknown];

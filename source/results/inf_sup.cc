@@ -113,7 +113,8 @@ reference_schur_complement(const Scene<dim> &scene, const Triangulation<dim> &tr
   const Laboratory<dim> fine(rough, mesh, fine_degrees, tables);
   const ConditionRows &rows = fine.discretisation.contact_rows;
   const FullMatrix<double> T = embedding(coarse, fine.discretisation.spaces->contact_space);
-  ConditionRows combined{rows.kept, std::vector<ConditionRows::Row>(T.m()), Vector<double>(T.m())};
+  ConditionRows combined{rows.interface, std::vector<ConditionRows::Row>(T.m()),
+                         Vector<double>(T.m())};
   for (unsigned int m = 0; m < T.m(); ++m)
   {
     std::map<unsigned int, double> row;

@@ -39,7 +39,7 @@ struct Grid
   static constexpr unsigned int n_nodes = 12;
   SymmetricMatrix A;
   EliminationHints hints;
-  Numbers kept; ///< half of the first row
+  Numbers interface; ///< half of the first row
 
   Grid()
   {
@@ -50,14 +50,14 @@ struct Grid
         if (round <= node % 4)
           unknowns[node].push_back(n++);
     std::vector<std::map<unsigned int, double>> columns(n);
-    hints.alike.resize(n);
+    hints.supervariables.resize(n);
     hints.stage.resize(n);
     for (unsigned int node = 0; node < unknowns.size(); ++node)
       for (const unsigned int i : unknowns[node])
       {
         if (node < n_nodes && i % 2 == 0)
-          kept.push_back(i);
-        hints.alike[i] = node;
+          interface.push_back(i);
+        hints.supervariables[i] = node;
         hints.stage[i] = node % n_nodes == n_nodes / 2 ? 3 : node % 5 == 0 ? 1 : 0; // 2 has none
         for (const int x : {-1, 0, 1})
           for (const int y : {-1, 0, 1})
@@ -69,8 +69,8 @@ struct Grid
                   columns[j][i] = i == j ? 100. : -1. / (1 + (i * j) % 7);
           }
       }
-    std::sort(kept.begin(), kept.end());
-    hints.alike = Supervariables(hints.alike).numbers();
+    std::sort(interface.begin(), interface.end());
+    hints.supervariables = Supervariables(hints.supervariables).numbers();
     for (const auto &column : columns)
     {
       for (const auto &[row, value] : column)
@@ -89,7 +89,7 @@ TEST(Elimination, FactorsTheSameMatrixWithHints)
   const Grid grid;
   const unsigned int n = grid.A.n();
   const std::vector<hpvi::Stabilisation> stabilisation = {
-      {{{grid.kept[0], 0.6}, {grid.kept[7], 0.8}}, 2.}, {{{grid.kept[1], 1.}}, 3.}};
+      {{{grid.interface[0], 0.6}, {grid.interface[7], 0.8}}, 2.}, {{{grid.interface[1], 1.}}, 3.}};
   Vector<double> f(n);
   std::iota(f.begin(), f.end(), 1.);
   for (const bool are_kept : {false, true})
@@ -97,14 +97,14 @@ TEST(Elimination, FactorsTheSameMatrixWithHints)
     {
       const auto solver = [&](const EliminationHints &hints)
       {
-        return LinearSolver(grid.A, are_kept ? grid.kept : Numbers(), 0.,
+        return LinearSolver(grid.A, are_kept ? grid.interface : Numbers(), 0.,
                             are_stabilised ? stabilisation : std::vector<hpvi::Stabilisation>(),
                             hints);
       };
       const LinearSolver plain = solver({});
       const Vector<double> x = plain.solve(f);
       for (const EliminationHints &hints :
-           {grid.hints, EliminationHints{grid.hints.alike, {}}, {{}, grid.hints.stage}})
+           {grid.hints, EliminationHints{grid.hints.supervariables, {}}, {{}, grid.hints.stage}})
       {
         const LinearSolver hinted = solver(hints);
         Vector<double> difference = hinted.solve(f);
@@ -112,14 +112,14 @@ TEST(Elimination, FactorsTheSameMatrixWithHints)
         EXPECT_LE(difference.linfty_norm(), 1e-13 * x.linfty_norm());
         if (!are_kept)
           continue;
-        const unsigned int m = grid.kept.size();
+        const unsigned int m = grid.interface.size();
         const auto complement = [&](const LinearSolver &of)
         {
           FullMatrix<double> S(m);
           for (unsigned int i = 0; i < m; ++i)
             for (unsigned int j = 0; j < m; ++j)
               for (unsigned int k = 0; k <= std::min(i, j); ++k)
-                S(of.kept_order()[i], of.kept_order()[j]) +=
+                S(of.interface_order()[i], of.interface_order()[j]) +=
                     of.kept_factor()(i, k) * of.kept_factor()(j, k);
           return S;
         };
@@ -127,7 +127,8 @@ TEST(Elimination, FactorsTheSameMatrixWithHints)
         S.add(-1., complement(plain));
         EXPECT_LE(S.linfty_norm(), 1e-12 * complement(plain).linfty_norm());
         EXPECT_EQ(
-            std::set<unsigned int>(hinted.kept_order().begin(), hinted.kept_order().end()).size(),
+            std::set<unsigned int>(hinted.interface_order().begin(), hinted.interface_order().end())
+                .size(),
             m);
       }
     }

@@ -65,12 +65,12 @@ std::vector<std::unique_ptr<char[]>> all_but(const unsigned int n_blocks, const 
 std::string failure_of(const SymmetricMatrix &A, const unsigned int n_contact = 0,
                        const double bytes = 1e15)
 {
-  std::vector<unsigned int> kept(n_contact);
-  std::iota(kept.begin(), kept.end(), 0);
+  std::vector<unsigned int> interface(n_contact);
+  std::iota(interface.begin(), interface.end(), 0);
   const AddressSpaceLimit limit(bytes);
   try
   {
-    LinearSolver(A, kept, n_contact > 0 ? 8. * n_contact * n_contact : 0.);
+    LinearSolver(A, interface, n_contact > 0 ? 8. * n_contact * n_contact : 0.);
   }
   catch (const NumericalFailure &failure)
   {
@@ -99,7 +99,7 @@ TEST(LinearSolver, NotPositiveDefinite)
 TEST(LinearSolver, FactorsAgain)
 {
   const unsigned int n = 30;
-  const std::vector<unsigned int> kept = {3, 8, 20};
+  const std::vector<unsigned int> interface = {3, 8, 20};
   const std::vector<hpvi::Stabilisation> stabilisation = {{{{3, 0.6}, {20, 0.8}}, 2.}};
   const auto matrix = [](const double shift)
   {
@@ -110,16 +110,16 @@ TEST(LinearSolver, FactorsAgain)
   };
   Vector<double> f(n);
   std::iota(f.begin(), f.end(), 1.);
-  LinearSolver again(matrix(0.1), kept, 0., stabilisation);
+  LinearSolver again(matrix(0.1), interface, 0., stabilisation);
   for (const double shift : {0.2, 0.05})
   {
-    const LinearSolver fresh(matrix(shift), kept, 0., stabilisation);
+    const LinearSolver fresh(matrix(shift), interface, 0., stabilisation);
     again.factor_again(matrix(shift), stabilisation);
     Vector<double> difference = again.solve(f);
     difference -= fresh.solve(f);
     EXPECT_LE(difference.linfty_norm(), 1e-12 * f.linfty_norm());
-    ASSERT_EQ(again.kept_order(), fresh.kept_order());
-    for (unsigned int i = 0; i < kept.size(); ++i)
+    ASSERT_EQ(again.interface_order(), fresh.interface_order());
+    for (unsigned int i = 0; i < interface.size(); ++i)
       for (unsigned int j = 0; j <= i; ++j)
         EXPECT_NEAR(again.kept_factor()(i, j), fresh.kept_factor()(i, j), 1e-12);
   }

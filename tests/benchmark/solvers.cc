@@ -244,12 +244,12 @@ struct Comparison
     const ConditionRows &rows = discretisation.contact_rows;
     Triplets A(system.A);
     std::vector<int> schur_unknowns;
-    for (const unsigned int unknown : rows.kept)
+    for (const unsigned int unknown : rows.interface)
       schur_unknowns.push_back(unknown + 1);
     for (unsigned int repetition = 0; repetition < repetitions; ++repetition)
     {
       Stopwatch watch;
-      const LinearSolver solver(system.A, rows.kept, 0., {}, system.hints);
+      const LinearSolver solver(system.A, rows.interface, 0., {}, system.hints);
       const SchurComplement reference(solver, system.f, rows);
       cholmod.push_back(watch.lap());
       measure_mumps(A, schur_unknowns, dense_rows(rows), reference.S());
@@ -259,7 +259,7 @@ struct Comparison
 private:
   static FullMatrix<double> dense_rows(const ConditionRows &rows)
   {
-    FullMatrix<double> B(rows.n_rows(), rows.kept.size());
+    FullMatrix<double> B(rows.n_rows(), rows.interface.size());
     for (unsigned int i = 0; i < rows.n_rows(); ++i)
       for (const auto &[place, weight] : rows.B[i])
         B(i, place) = weight;
@@ -300,7 +300,7 @@ void print_row(const unsigned int n_free_dofs, const Discretisation<2> &discreti
   const ConditionRows &rows = discretisation.contact_rows;
   const double cholmod = median(comparison.cholmod), mumps = median(comparison.total);
   std::cout << std::fixed << std::setprecision(4) << std::setw(9) << n_free_dofs << std::setw(9)
-            << discretisation.system.A.n() << std::setw(9) << rows.kept.size() << std::setw(12)
+            << discretisation.system.A.n() << std::setw(9) << rows.interface.size() << std::setw(12)
             << rows.n_rows() << std::setw(9) << cholmod << " | " << std::left << std::setw(8)
             << ordering_names.at(comparison.asked) << std::setw(8)
             << ordering_names.at(comparison.used) << std::right << std::setw(8)

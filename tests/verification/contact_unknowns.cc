@@ -140,7 +140,7 @@ void ContactUnknowns::have_the_conditions_of_their_displacement()
     {
       double sum = rows.prescribed[i];
       for (const auto &[place, weight] : rows.B[i])
-        sum += weight * x[rows.kept[place]];
+        sum += weight * x[rows.interface[place]];
       EXPECT_NEAR(own[i], moments[i], 1e-12);
       EXPECT_NEAR(sum, moments[i] - oracle.gap[i], 1e-12);
     }
@@ -159,7 +159,7 @@ void ContactUnknowns::feel_the_forces_of_the_multiplier()
   Vector<double> collected = unknowns.collect(forces);
   for (unsigned int i = 0; i < rows.n_rows(); ++i)
     for (const auto &[place, weight] : rows.B[i])
-      collected[rows.kept[place]] -= weight * z[i];
+      collected[rows.interface[place]] -= weight * z[i];
   EXPECT_LE(collected.linfty_norm(), 1e-12);
 }
 

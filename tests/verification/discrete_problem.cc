@@ -455,7 +455,7 @@ void expect_coupling(const int offset)
     moments -= rows.prescribed;
     for (unsigned int m = 0; m < moments.size(); ++m)
       for (const auto &[place, weight] : rows.B[m])
-        moments[m] -= weight * x[rows.kept[place]];
+        moments[m] -= weight * x[rows.interface[place]];
     EXPECT_LE(moments.linfty_norm(), 1e-12 * largest);
   }
 }
@@ -473,7 +473,7 @@ TEST(Moments, AreTheUnknownsInsideContactEdges)
   const RandomMesh mesh(scene, 3, 2);
   const Laboratory discrete(scene, mesh);
   const ConditionRows &rows = discrete.discretisation.contact_rows;
-  EXPECT_EQ(rows.kept.size(), discrete.contact_space.n_multipliers());
+  EXPECT_EQ(rows.interface.size(), discrete.contact_space.n_multipliers());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   Vector<double> x(discrete.discretisation.unknowns.n());
@@ -494,14 +494,14 @@ TEST(Moments, TurnThePrimalSchurComplementIntoTheDualOne)
   const Laboratory discrete(scene, mesh);
   const SymmetricMatrix &A = discrete.system.A;
   const ConditionRows &rows = discrete.discretisation.contact_rows;
-  const unsigned int n = A.n(), m = rows.kept.size();
+  const unsigned int n = A.n(), m = rows.interface.size();
   // Unknowns inside first, moments last, and Gauss's elimination up to them.
   std::vector<unsigned int> place(n);
   for (unsigned int k = 0, inside = 0; k < n; ++k)
   {
-    const auto found = std::lower_bound(rows.kept.begin(), rows.kept.end(), k);
-    const bool is_kept = found != rows.kept.end() && *found == k;
-    place[k] = is_kept ? n - m + (found - rows.kept.begin()) : inside++;
+    const auto found = std::lower_bound(rows.interface.begin(), rows.interface.end(), k);
+    const bool is_kept = found != rows.interface.end() && *found == k;
+    place[k] = is_kept ? n - m + (found - rows.interface.begin()) : inside++;
   }
   FullMatrix<double> dense(n, n);
   for (unsigned int column = 0; column < n; ++column)
@@ -1035,7 +1035,7 @@ void expect_empty_reduction(const Scene<2> &scene)
 {
   const RandomMesh mesh(scene, 1, 1);
   const Laboratory discrete(scene, mesh);
-  EXPECT_TRUE(discrete.discretisation.contact_rows.kept.empty());
+  EXPECT_TRUE(discrete.discretisation.contact_rows.interface.empty());
   EXPECT_EQ(discrete.discretisation.contact_rows.n_rows(), 0u);
   const SchurComplement reduced = discrete.reduce();
   EXPECT_EQ(reduced.S().m(), 0u);

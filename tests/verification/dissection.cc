@@ -38,7 +38,7 @@ TEST(Dissection, UnknownsThatAreAlikeHaveEntriesInTheSamePlaces)
       const Scene<2> scene = shipped_scene(file);
       const RandomMesh mesh(scene, seed, 2);
       const Laboratory step(scene, mesh);
-      const Numbers &alike = step.system.hints.alike;
+      const Numbers &alike = step.system.hints.supervariables;
       ASSERT_EQ(alike.size(), step.system.A.n());
       const auto entries = neighbours(step.system.A);
       std::map<unsigned int, unsigned int> first;

@@ -18,11 +18,11 @@ class Elimination
 {
 public:
   /**
-   * @p A: the upper triangle; @p kept: ascending, with all that are alike or none of them; they come after all stages. Whether it
+   * @p A: the upper triangle; @p interface: ascending, with all that are alike or none of them; they come after all stages. Whether it
    * succeeded is in @p common.
    */
   Elimination(const cholmod_sparse &A, const EliminationHints &hints,
-              const std::vector<unsigned int> &kept, cholmod_common &common);
+              const std::vector<unsigned int> &interface, cholmod_common &common);
 
   std::vector<int> permutation; ///< position in the factorisation -> number of the unknown
 
@@ -30,8 +30,8 @@ public:
   cholmod_factor *analyse(cholmod_common &common);
 
 private:
-  void gather(const cholmod_sparse &A, const std::vector<unsigned int> &alike);
-  void order(const std::vector<unsigned int> &stage, const std::vector<unsigned int> &kept,
+  void gather(const cholmod_sparse &A, const std::vector<unsigned int> &supervariables);
+  void order(const std::vector<unsigned int> &stage, const std::vector<unsigned int> &interface,
              cholmod_common &common);
   void expand();
   cholmod_sparse as_cholmod();

@@ -9,8 +9,8 @@ namespace hpvi
 /** What is known of a matrix without a look at it, by unknown; empty: nothing is. */
 struct EliminationHints
 {
-  std::vector<unsigned int> alike; ///< Supervariables::numbers()
-  std::vector<unsigned int> stage; ///< one after the other, of those alike the same
+  std::vector<unsigned int> supervariables; ///< Supervariables::numbers()
+  std::vector<unsigned int> stage;          ///< one after the other, of those alike the same
 };
 } // namespace hpvi
 

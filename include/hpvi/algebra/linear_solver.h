@@ -38,7 +38,7 @@ public:
    * Factor @p A. @p more_bytes are those that the caller will want beside L; @p hints are known of A without a look at it.
    * Throws NumericalFailure if A is not positive definite or memory does not suffice.
    */
-  LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &kept,
+  LinearSolver(const SymmetricMatrix &A, const std::vector<unsigned int> &interface,
                double more_bytes = 0., const std::vector<Stabilisation> &stabilisation = {},
                const EliminationHints &hints = {});
   LinearSolver(LinearSolver &&);
@@ -50,7 +50,7 @@ public:
   /** `A^-1 f` */
   dealii::Vector<double> solve(const dealii::Vector<double> &f) const;
 
-  /** `y = L^-1 f`, in the order of elimination: kept unknowns last. */
+  /** `y = L^-1 f`, in the order of elimination: interface dofs last. */
   dealii::Vector<double> forward(const dealii::Vector<double> &f) const;
 
   /** `L^-T y`: what is left of solve() after forward(). */
@@ -58,8 +58,8 @@ public:
 
   const dealii::LAPACKFullMatrix<double> &kept_factor() const; ///< C, lower triangular
 
-  /** The place in kept of each row of C. */
-  const std::vector<unsigned int> &kept_order() const;
+  /** The place in interface of each row of C. */
+  const std::vector<unsigned int> &interface_order() const;
 
 private:
   struct Factor;

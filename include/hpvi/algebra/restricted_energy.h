@@ -45,9 +45,9 @@ struct BorderedMatrix
 class RestrictedEnergy
 {
 public:
-  /** @p fixed has zeros where entries are free; those of @p kept are. Throws NumericalFailure. */
+  /** @p fixed has zeros where entries are free; those of @p interface are. Throws NumericalFailure. */
   RestrictedEnergy(const BorderedMatrix &A, const std::vector<bool> &is_free,
-                   const dealii::Vector<double> &fixed, std::vector<unsigned int> kept);
+                   const dealii::Vector<double> &fixed, std::vector<unsigned int> interface);
 
   /** Where an unknown stands among those kept, or numbers::invalid_unsigned_int. */
   unsigned int place(unsigned int unknown) const;
@@ -57,16 +57,16 @@ public:
   dealii::Vector<double> h() const;
 
   dealii::Vector<double> minimiser() const; ///< x
-  dealii::Vector<double>
-  minimiser(const dealii::Vector<double> &kept_values) const; ///< with these values of those kept
+  dealii::Vector<double> minimiser(
+      const dealii::Vector<double> &interface_values) const; ///< with these values of those kept
 
 private:
   SymmetricMatrix restrict(const BorderedMatrix &A, const std::vector<unsigned int> &number,
                            dealii::Vector<double> &f) const;
   dealii::Vector<double> all(const dealii::Vector<double> &forwarded) const;
 
-  std::vector<unsigned int> free, kept; ///< unknowns; those kept in the order of the factor
-  dealii::Vector<double> fixed, y;      ///< L^-1 of what the fixed ones do to the free ones
+  std::vector<unsigned int> free, interface; ///< unknowns; those kept in the order of the factor
+  dealii::Vector<double> fixed, y;           ///< L^-1 of what the fixed ones do to the free ones
   std::unique_ptr<const LinearSolver> solver;
 };
 } // namespace hpvi

@@ -11,9 +11,9 @@ struct ConditionRows
 {
   using Row = std::vector<std::pair<unsigned int, double>>;
 
-  std::vector<unsigned int> kept;    ///< the unknowns that occur, ascending: the columns of B
-  std::vector<Row> B;                ///< place in kept and weight
-  dealii::Vector<double> prescribed; ///< what does not depend on x
+  std::vector<unsigned int> interface; ///< the unknowns that occur, ascending: the columns of B
+  std::vector<Row> B;                  ///< place in interface and weight
+  dealii::Vector<double> prescribed;   ///< what does not depend on x
 
   unsigned int n_rows() const
   {
@@ -30,7 +30,7 @@ struct ConditionRows
 class SchurComplement
 {
 public:
-  /** @p solver, of A with the kept unknowns of @p rows, must outlive this object. */
+  /** @p solver, of A with the interface dofs of @p rows, must outlive this object. */
   SchurComplement(const LinearSolver &solver, const dealii::Vector<double> &f,
                   const ConditionRows &rows);
 

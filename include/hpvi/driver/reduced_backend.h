@@ -173,7 +173,7 @@ private:
   std::string dense_note() const
   {
     const auto &rows = discretisation->contact_rows;
-    return DenseWork{rows.kept.size(), rows.n_rows()}.note();
+    return DenseWork{rows.interface.size(), rows.n_rows()}.note();
   }
   bool needs_factor_again() const;
 
