@@ -138,10 +138,10 @@ struct Missed
 {
   std::array<Vector<double>, 2> value; ///< Legendre coefficients
   std::array<double, 2>
-      oscillation{}; ///< by how much the polynomial differs from the data between its nodes
-  Point<2> unread_at;
+      missed_data{}; ///< by how much the polynomial differs from the data between its nodes
+  Point<2> missed_at;
 
-  /** A polynomial that vanishes at both ends and oscillates by `oscillation`, beyond the degrees of value. */
+  /** A polynomial that vanishes at both ends and oscillates by `missed_data`, beyond the degrees of value. */
   std::array<Vector<double>, 2> oscillation() const;
 };
 
@@ -151,8 +151,8 @@ std::array<Vector<double>, 2> Missed::oscillation() const
   std::array<Vector<double>, 2> result{{Vector<double>(n + 2), Vector<double>(n + 2)}};
   for (unsigned int c = 0; c < 2; ++c) // P_{n+1} - P_{n-1}
   {
-    result[c][n + 1] = oscillation[c] / legendre::at_end(n + 1, true);
-    result[c][n - 1] = -oscillation[c] / legendre::at_end(n - 1, true);
+    result[c][n + 1] = missed_data[c] / legendre::at_end(n + 1, true);
+    result[c][n - 1] = -missed_data[c] / legendre::at_end(n - 1, true);
   }
   return result;
 }
@@ -191,14 +191,14 @@ Missed missed_displacement(const Solution<2> &solution, const EquilibratedStress
     tables.from_nodes(n - 1).vmult(result.value[c], at_nodes);
     const std::vector<double> fine(result.value[c].begin(), result.value[c].end());
     const double round_off = 1e-13 * at_nodes.linfty_norm(),
-                 before = std::max(result.oscillation[0], result.oscillation[1]);
+                 before = std::max(result.missed_data[0], result.missed_data[1]);
     for (const double s : between)
       if (const double missed = std::abs(legendre::evaluate(fine, 2 * s - 1) - data(s));
-          missed > std::max(round_off, result.oscillation[c]))
+          missed > std::max(round_off, result.missed_data[c]))
       {
-        result.oscillation[c] = missed;
+        result.missed_data[c] = missed;
         if (missed > before)
-          result.unread_at = map.point(point_on_face<2>(face, Point<1>(s)));
+          result.missed_at = map.point(point_on_face<2>(face, Point<1>(s)));
       }
     for (unsigned int i = 0; i <= p; ++i)
       result.value[c][i] -= coarse[i];
@@ -289,7 +289,7 @@ void DataError::add_initial_strain(const Solution<2> &solution, const Equilibrat
   if (missed <= 1e-12 * norm)
     return; // round-off
   unresolved += missed;
-  unread_work += missed * norm;
+  missed_work += missed * norm;
 }
 
 DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
@@ -321,12 +321,12 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
                             solution.tables) +
                     spring_energy(solution, edge, map, part)));
       lift_work += boundary_work(solution, stress, e, missed);
-      const double most = std::max(missed.oscillation[0], missed.oscillation[1]);
-      unread_work += most * absolute_traction(stress, e);
-      if (most > oscillation)
+      const double most = std::max(missed.missed_data[0], missed.missed_data[1]);
+      missed_work += most * absolute_traction(stress, e);
+      if (most > missed_data)
       {
-        oscillation = most;
-        unread_at = missed.unread_at;
+        missed_data = most;
+        missed_at = missed.missed_at;
       }
     }
   }

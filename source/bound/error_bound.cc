@@ -149,7 +149,8 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
   result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
-               unknown = (result.stress + w + result.oscillation) * data.lift + data.unread_work;
+               unknown =
+                   (result.stress + w + result.oscillation) * data.lift + data.missed_work;
   const bool is_admissible = !is_moved && data.lift == 0.; // u_N itself
   result.energy_above = is_admissible ? 0. : centre + unknown;
   result.energy_below = result.energy + unknown - centre;
@@ -222,10 +223,10 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
            "them at "
            "once knows no rigid plate";
   const std::string &unit = solution.scene.length_unit;
-  if (!(data.unread <= 1e-8 * largest))
+  if (!(data.missed_data <= 1e-8 * largest))
     return "a prescribed displacement or gap is not smooth along the edge at " +
-           to_string(data.unread_at) + ", where polynomials miss it by " + text(data.unread, 2) +
-           (unit.empty() || unit == "1" ? "" : " " + unit);
+           to_string(data.missed_at) + ", where polynomials miss it by " +
+           text(data.missed_data, 2) + (unit.empty() || unit == "1" ? "" : " " + unit);
   return {};
 }
 // @sect3{A friction bound that varies, a force in a corner}

@@ -114,8 +114,8 @@ void run_steps(StepStages<dim> &stages,
   for (bool finished = false; !finished;)
   {
     stages.solve();
-    stages.estimate();
-    StepReport<dim> step = stages.report();
+    stages.estimate_error();
+    StepReport<dim> step = stages.decide_and_report();
     step.stopped_by = stages.end_of_run();
     if (stages.asks_for_bound(step))
     {

@@ -140,7 +140,7 @@ void StepStages<dim>::solve()
 // is at most, and costs half of a step; where the last one alone shall have it, it waits for the limits.
 // Numbers that double precision does not support any more end the run here, with one line, before anybody reads them.
 template <int dim>
-void StepStages<dim>::estimate()
+void StepStages<dim>::estimate_error()
 {
   estimate = backend->estimate();
   norms = hpvi::norms(estimate, backend->communicator);
@@ -301,7 +301,7 @@ bool StepStages<dim>::goes_on() const
 // The way to the next step needs no bound of this one, unless cells are marked by it. Where there are threads for both, and the
 // run goes on for sure, the next step is solved while this one is told: each has parts for one thread, at which the other waited.
 template <int dim>
-StepReport<dim> StepStages<dim>::report()
+StepReport<dim> StepStages<dim>::decide_and_report()
 {
   is_bound_open = true;
   bound = open_bound();
@@ -309,7 +309,7 @@ StepReport<dim> StepStages<dim>::report()
     bound_unless_late();
   refinement = mark();
   std::optional<StepReport<dim>> step;
-  const auto tell_all = [&]()
+  const auto report_all = [&]()
   {
     bound_unless_late();
     step.emplace(report());
@@ -319,10 +319,10 @@ StepReport<dim> StepStages<dim>::report()
   if (next)
   {
     announce(*next);
-    ahead = std::make_unique<PipelinedStep<dim>>(std::move(next), *backend, tell_all);
+    ahead = std::make_unique<PipelinedStep<dim>>(std::move(next), *backend, report_all);
   }
   else
-    tell_all();
+    report_all();
   count(*step);
   step->errors = true_error.measure(step->field, step->contact); // which nobody's seconds count
   return std::move(*step);

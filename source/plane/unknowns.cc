@@ -398,13 +398,15 @@ ConditionRows Unknowns<dim>::contact_rows() const
 
   for (const Line &row : result.B)
     for (const auto &entry : row)
-      result.kept.push_back(entry.first);
-  std::sort(result.kept.begin(), result.kept.end());
-  result.kept.erase(std::unique(result.kept.begin(), result.kept.end()), result.kept.end());
+      result.interface.push_back(entry.first);
+  std::sort(result.interface.begin(), result.interface.end());
+  result.interface.erase(std::unique(result.interface.begin(), result.interface.end()),
+                         result.interface.end());
   for (Line &row : result.B)
     for (auto &entry : row)
-      entry.first = std::lower_bound(result.kept.begin(), result.kept.end(), entry.first) -
-                    result.kept.begin();
+      entry.first =
+          std::lower_bound(result.interface.begin(), result.interface.end(), entry.first) -
+          result.interface.begin();
   return result;
 }
 

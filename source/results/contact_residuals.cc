@@ -32,9 +32,9 @@ double penetration(const FieldFace<dim> &face, const Field<dim> &field)
   const Material *material = &field.scene.material_of(face.cell);
   for (const ContactSegment<dim> &segment : field.segments(face))
     if (const Material &other = field.scene.material_of(segment.cell);
-        other.weight() < material->weight())
+        other.residual_weight() < material->residual_weight())
       material = &other;
-  const double weight = material->weight(),
+  const double weight = material->residual_weight(),
                softest = field.scene.reference_coercivity() / material->coercivity(dim);
   const std::vector<double> u = evaluate(table.values, field.coefficients(face.cell));
   double sum = 0;

@@ -91,10 +91,10 @@ void PrimalSpace<dim>::find_contact()
         if (!cell->at_boundary(number))
           continue;
         const BoundaryCondition<dim> &boundary = condition(cell, number);
-        if (!boundary.has_pressure() && !has_tangential_moments(boundary))
+        if (!boundary.has_pressure() && !has_tangential_contact_dofs(boundary))
           continue;
         ContactDofFace<dim> face = face_of(cell, number);
-        if (has_tangential_moments(boundary))
+        if (has_tangential_contact_dofs(boundary))
         {
           face.friction = contact.size();
           add_contact_dofs(face, ContactDof<dim>::Kind::friction, dofs);
@@ -277,7 +277,7 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
 }
 
 template <int dim>
-DistributedVector PrimalSpace<dim>::contact_dofs(const DistributedVector &u) const
+DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) const
 {
   DistributedVector v = owned_vector();
   v.copy_locally_owned_data_from(u);
@@ -383,7 +383,7 @@ PrimalSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
     const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
     for (unsigned int c = 0; c < dim; ++c)
       result[dim * face + c] =
-          c == face / 2 ? boundary.has_pressure() : has_tangential_moments(boundary);
+          c == face / 2 ? boundary.has_pressure() : has_tangential_contact_dofs(boundary);
   }
   return result;
 }

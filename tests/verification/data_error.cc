@@ -192,7 +192,7 @@ TEST(DataErrorOfOneCell, IsWhatStressesLackOfAnInitialStress)
                                      map_of<2>(mesh.mesh.begin_active()), 3);
     EXPECT_GT(expected, 1e-4);
     EXPECT_NEAR(data.oscillation[0], expected, 1e-8 * expected);
-    EXPECT_LT(data.unread_work, 1e-9);
+    EXPECT_LT(data.missed_work, 1e-9);
   }
 }
 
@@ -209,7 +209,7 @@ TEST(DataErrorOfOneCell, PaysForInitialStrainsThatNoRuleKnows)
   const double norm = std::sqrt(
       internal_forces(scene, lab.displacement_space, lab.tables, solution.u).energy_product);
   EXPECT_GT(data.unresolved, 1e-3);
-  EXPECT_GE(data.unread_work, 0.99 * data.unresolved * norm);
+  EXPECT_GE(data.missed_work, 0.99 * data.unresolved * norm);
 }
 
 /** Steps share what they know of loads and initial strains in a cell, which changes with its degree, and not with the mesh around it. */

@@ -600,8 +600,8 @@ struct NarrowDatum
 std::string strip(const std::string &x, const unsigned int k, const unsigned int n,
                   const std::string &value)
 {
-  return "if(abs(" + x + " - " + in_digits((k + 0.5) / n) + ") < " + in_digits(0.5 / n) + ", " +
-         value + ", 0)";
+  return "if(abs(" + x + " - " + verification::in_digits((k + 0.5) / n) + ") < " +
+         in_digits(0.5 / n) + ", " + value + ", 0)";
 }
 
 /** A square whose left side is held, pulled to the right a little. */

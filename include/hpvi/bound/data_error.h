@@ -43,10 +43,10 @@ public:
   double unresolved; ///< what quadrature leaves open of all loads: to be added to the oscillation
   double lift = 0;   ///< |d|_a
   double lift_work = 0;   ///< int (s n - G + k u_N) . d over the boundary [stress length^dim]
-  double unread_work = 0; ///< what that may miss, because of
-  double oscillation =
+  double missed_work = 0; ///< what that may miss, because of
+  double missed_data =
       0; ///< how far u_D and u_0 are from these polynomials between their nodes [length]
-  dealii::Point<2> unread_at;
+  dealii::Point<2> missed_at;
 
 private:
   void add_initial_strain(const Solution<2> &solution, const EquilibratedStress &stress);

@@ -26,7 +26,7 @@ class PipelinedStep
 {
 public:
   /**
-   * Solves @p next on the calling thread, which is the one that hears of stages, beside @p tell of @p here, whose own stages are silent.
+   * Solves @p next on the calling thread, which is the one that hears of stages, beside @p report of @p here, whose own stages are silent.
    * Seconds of both are shares of the time that they take together. Throws what report() throws.
    */
   PipelinedStep(std::unique_ptr<Backend<dim>> next, Backend<dim> &here,
@@ -71,7 +71,7 @@ struct StepStages
   void set_callback(const std::function<void(const Progress &)> &listener);
   void announce(Backend<dim> &of);
   void solve();
-  void estimate();
+  void estimate_error();
   double hysteresis() const;
   bool has_late_bound() const;
   bool asks_for_bound(const StepReport<dim> &step) const;
@@ -80,7 +80,7 @@ struct StepStages
   Refinement mark() const;
   PastStep<dim> past_step() const;
   bool goes_on() const;
-  StepReport<dim> report();
+  StepReport<dim> decide_and_report();
   StepReport<dim> report();
   std::string end_of_run() const;
   void add_results(StepReport<dim> &step);

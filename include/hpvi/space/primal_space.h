@@ -83,7 +83,7 @@ public:
    * Does anything act, or hang on springs, along a boundary? Where contact alone holds the body each of its pressures has
    * contact dofs beside it.
    */
-  bool has_tangential_moments(const BoundaryCondition<dim> &boundary) const
+  bool has_tangential_contact_dofs(const BoundaryCondition<dim> &boundary) const
   {
     return boundary.has_contact() &&
            (boundary.friction || (rests_on_contact && boundary.is_unilateral()));
