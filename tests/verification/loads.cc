@@ -601,7 +601,7 @@ std::string strip(const std::string &x, const unsigned int k, const unsigned int
                   const std::string &value)
 {
   return "if(abs(" + x + " - " + verification::in_digits((k + 0.5) / n) + ") < " +
-         in_digits(0.5 / n) + ", " + value + ", 0)";
+         verification::in_digits(0.5 / n) + ", " + value + ", 0)";
 }
 
 /** A square whose left side is held, pulled to the right a little. */
