@@ -50,6 +50,7 @@ FaceDofs<dim>::FaceDofs(const ContactFace<dim> &face, const DisplacementSpace<di
 template <int dim>
 std::string unmatched_joint(const ContactSpace<dim> &contact_space)
 {
+  std::string unequal; // only meshes that match go on with equal degrees
   for (const ContactFace<dim> &face : contact_space.faces())
   {
     if (face.segments.empty())
@@ -59,10 +60,10 @@ std::string unmatched_joint(const ContactSpace<dim> &contact_space)
         " along " + printable(face.condition->name) + " at " + to_string(face.point(0.5));
     if (!opposite)
       return "the meshes of two bodies do not match, vertex to vertex," + place;
-    if (opposite->degree != face.degree)
-      return "cells of two bodies have unequal degrees" + place;
+    if (unequal.empty() && opposite->degree != face.degree)
+      unequal = "cells of two bodies have unequal degrees" + place;
   }
-  return {};
+  return unequal;
 }
 
 namespace

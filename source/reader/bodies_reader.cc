@@ -146,6 +146,8 @@ void read_bodies(const Parameters &parameters, const UserNames &names, Scene<2> 
   std::vector<PairSides> pairs;
   for (const std::string &name : names.pairs)
     pairs.push_back(read_pair_sides(parameters, section_of_pair(name), name, sides, singles));
+  if (parameters.text("Error", "Bound") != "false")
+    carry_on_cuts(pairs, singles);
   for (PairSides &pair : pairs)
   {
     if (!pair.line)

@@ -52,8 +52,8 @@ bool is_among(const std::vector<double> &lines, const double x)
   return std::any_of(lines.begin(), lines.end(),
                      [x](const double line) { return std::abs(line - x) < same; });
 }
+} // namespace
 
-/** Adds lines across @p direction, and says so. */
 template <int dim>
 void add_lines(Scene<dim> &scene, const unsigned int direction, const std::vector<double> &found,
                const std::string &path)
@@ -78,7 +78,6 @@ void add_lines(Scene<dim> &scene, const unsigned int direction, const std::vecto
   scene.remarks.push_back("the coarse mesh has " + cells + " cells: " + path +
                           " has a grid line at " + "xyz"[direction] + " = " + places.str());
 }
-} // namespace
 
 template <int dim>
 void cut_side(Scene<dim> &scene, const unsigned int side, const Expression<dim> &where,
@@ -141,6 +140,7 @@ void cut_body(Scene<dim> &scene, const Expression<dim> &where, const std::string
   }
 }
 
+template void add_lines(Scene<2> &, unsigned int, const std::vector<double> &, const std::string &);
 template void cut_side(Scene<2> &, unsigned int, const Expression<2> &, const std::string &);
 template void cut_side(Scene<3> &, unsigned int, const Expression<3> &, const std::string &);
 template void cut_body(Scene<2> &, const Expression<2> &, const std::string &);

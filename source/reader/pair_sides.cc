@@ -243,6 +243,53 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
   return pair;
 }
 
+namespace
+{
+/** Of straight sides of boxes; did any line go on? */
+bool carry_on_cuts(const PairSides &pair, std::vector<Scene<2>> &singles)
+{
+  const std::array<Scene<2> *, 2> bodies{
+      {&singles[pair.sides[0].body], &singles[pair.sides[1].body]}};
+  if (!pair.line || bodies[0]->geometry.shape != Shape::box ||
+      bodies[1]->geometry.shape != Shape::box)
+    return false;
+  const unsigned int along = std::abs(pair.line->along[0]) > 0.5 ? 0 : 1;
+  std::array<std::vector<double>, 2> missing; // of either body, in its unit cube
+  for (const unsigned int k : {0, 1})
+  {
+    const Geometry<2> &own = bodies[k]->geometry, &other = bodies[1 - k]->geometry;
+    const double low = own.corners.front()[along], length = own.corners.back()[along] - low,
+                 hair = same_place * std::max(own.diameter(), other.diameter());
+    const std::vector<double> lines = own.grid_lines(along), &cuts = other.cuts[along];
+    for (const double line : other.grid_lines(along))
+    {
+      const Point<2> x = other.point({line, line});
+      const double here = (x[along] - low) / length;
+      if (pair.line->inside(x) < hair ||
+          std::any_of(lines.begin(), lines.end(),
+                      [&](const double one) { return std::abs(one - here) * length < hair; }))
+        continue;
+      if (std::find(cuts.begin(), cuts.end(), line) == cuts.end())
+        return false;
+      missing[k].push_back(here);
+    }
+  }
+  for (const unsigned int k : {0, 1})
+    add_lines(*bodies[k], along, missing[k], pair.section + "/Between");
+  return !missing[0].empty() || !missing[1].empty();
+}
+} // namespace
+
+void carry_on_cuts(const std::vector<PairSides> &pairs, std::vector<Scene<2>> &singles)
+{
+  for (bool is_changed = true; is_changed;)
+  {
+    is_changed = false;
+    for (const PairSides &pair : pairs)
+      is_changed = carry_on_cuts(pair, singles) || is_changed;
+  }
+}
+
 void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, PairSides &pair)
 {
   const auto drawn = [&](const unsigned int k)

@@ -571,4 +571,93 @@ TEST(JointBound, NamesWhatDoesNotMatch)
   EXPECT_EQ(n_elements, 28U);
   EXPECT_EQ(nested[0].n_elements, 28U + 4 * 3);
 }
+
+/** Where parts, materials and other bodies end in one box, the boxes beside it get its lines as far as meshes match else. */
+TEST(JointBound, GoesOnWhereABoxIsCut)
+{
+  struct Row
+  {
+    std::string name;
+    Overrides entries;
+    std::vector<std::string> cut; ///< bodies with a line that another one has; empty: no bound
+  };
+  const auto box = [](const std::string &name, const std::string &lower, const std::string &upper,
+                      const std::string &cells)
+  {
+    return Overrides{
+        {"Body " + name + "/Lower corner", lower}, {"Body " + name + "/Upper corner", upper},
+        {"Body " + name + "/Subdivisions", cells}, {"Material/Young's modulus", "10"},
+        {"Material/Poisson's ratio", "0.3"},       {"Adaptivity/Maximum steps", "3"}};
+  };
+  const auto joined = [](const std::vector<Overrides> &parts)
+  {
+    Overrides result;
+    for (const Overrides &part : parts)
+      result.insert(result.end(), part.begin(), part.end());
+    return result;
+  };
+  const Overrides stack = joined({box("b", "0, 0", "3, 1", "6, 2"),
+                                  box("a", "0, 1", "3, 2", "6, 2"),
+                                  {{"Boundary b.bottom/Displacement", "0; 0"},
+                                   {"Boundary a.left/Displacement", "0; free"},
+                                   {"Contact joint/Between", "a.bottom, b.top"}}}),
+                  load{{"Boundary load/On", "a.top"},
+                       {"Boundary load/Where", "0.1 - abs(x - 1)"},
+                       {"Boundary load/Pressure", "1"}},
+                  beside = joined({box("a", "0, 0", "1, 2", "2, 4"),
+                                   box("b", "1, 0", "2, 2", "1, 4"),
+                                   {{"Boundary b.right/Displacement", "0; 0"},
+                                    {"Contact joint/Between", "a.right, b.left"},
+                                    {"Contact joint/Law", "tied"},
+                                    {"Boundary load/On", "a.left"},
+                                    {"Boundary load/Where", "y - 0.3"},
+                                    {"Boundary load/Traction", "1; 0"}}}),
+                  third = joined({stack,
+                                  box("c", "0.6, 2", "0.8, 3", "1, 2"),
+                                  {{"Boundary c.top/Displacement", "0; -0.01"},
+                                   {"Contact foot/Between", "c.bottom, a.top"}}});
+  for (const Row &row :
+       {Row{"a part of a side", joined({stack, load}), {"b"}},
+        Row{"on a shorter body",
+            joined(
+                {stack, load, {{"Body a/Upper corner", "2, 2"}, {"Body a/Subdivisions", "4, 2"}}}),
+            {"b"}},
+        Row{"a part of a side that stands", beside, {"b"}},
+        Row{"a material in the body below",
+            joined({stack,
+                    {{"Material hard/Where", "min(x - 0.7, 1 - y)"},
+                     {"Material hard/Young's modulus", "40"},
+                     {"Material hard/Poisson's ratio", "0.3"},
+                     {"Boundary a.top/Pressure", "1"}}}),
+            {"a"}},
+        Row{"both",
+            joined({stack,
+                    load,
+                    {{"Material hard/Where", "min(x - 2.3, 1 - y)"},
+                     {"Material hard/Young's modulus", "40"},
+                     {"Material hard/Poisson's ratio", "0.3"}}}),
+            {"b", "a"}},
+        Row{"a foot in the middle of a pile", third, {"b"}},
+        Row{"and where no other line matches",
+            joined({stack, load, {{"Body b/Subdivisions", "5, 2"}}}),
+            {}},
+        Row{"and where no bound is asked for",
+            joined({stack, load, {{"Error/Bound", "false"}}}),
+            {}}})
+  {
+    const Scene<2> scene = scene_of(row.entries);
+    std::vector<std::string> cut;
+    for (const std::string &remark : scene.remarks)
+      if (remark.find("/Between has a grid line") != std::string::npos &&
+          remark.find("foot/Between") == std::string::npos)
+        cut.push_back(remark.substr(5, 1));
+    EXPECT_EQ(cut, row.cut) << row.name;
+    std::string why;
+    const std::vector<Step> steps = run(scene, &why);
+    EXPECT_EQ(steps.size(), row.cut.empty() ? 0U : 3U) << row.name << ": " << why;
+    EXPECT_EQ(why.rfind("the meshes of two bodies do not match", 0) == 0,
+              row.name == "and where no other line matches")
+        << row.name << why;
+  }
+}
 } // namespace

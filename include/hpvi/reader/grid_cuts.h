@@ -9,6 +9,11 @@
 
 namespace hpvi
 {
+/** Adds grid lines at @p places of the unit cube across @p direction, which @p path asks for, and a remark that says so. */
+template <int dim>
+void add_lines(Scene<dim> &scene, unsigned int direction, const std::vector<double> &places,
+               const std::string &path);
+
 /**
  * Adds to the coarse mesh of a box the grid lines that it lacks where @p where, of the entry @p path, changes
  * its sign along the side number @p side, and a remark that says so. Other shapes stay as they are.

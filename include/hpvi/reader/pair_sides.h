@@ -53,6 +53,12 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
                           const std::string &name, const std::vector<NamedSide> &sides,
                           std::vector<Scene<2>> &singles);
 
+/**
+ * Grid lines that boxes have got where parts, materials and other sides end go on in the boxes beside them, as far as these match but for such
+ * lines: what has a bound without a part of a side has one with it.
+ */
+void carry_on_cuts(const std::vector<PairSides> &pairs, std::vector<Scene<2>> &singles);
+
 /** Where the others do, edge by edge; after the grid lines of all pairs. */
 void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, PairSides &pair);
 
