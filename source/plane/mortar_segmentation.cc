@@ -24,6 +24,23 @@ double chord(const ExactFace &face)
 {
   return face.path.ends[0].distance(face.path.ends[1]);
 }
+
+/** What lies behind another edge is not opposite; by the distances of the edges. */
+template <int dim>
+void drop_what_is_behind(std::vector<ContactSegment<dim>> &segments, std::vector<double> distances)
+{
+  for (unsigned int a = segments.size(); a-- > 0;)
+    for (unsigned int b = 0; b < segments.size(); ++b)
+      if (a != b && distances[b] < distances[a] &&
+          std::min(segments[a].end, segments[b].end) -
+                  std::max(segments[a].begin, segments[b].begin) >
+              shortest)
+      {
+        segments.erase(segments.begin() + a);
+        distances.erase(distances.begin() + a);
+        break;
+      }
+}
 } // namespace
 
 double ExactFace::on_path(const double s) const
@@ -170,6 +187,7 @@ std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_line(const ContactI
                                                                   const unsigned int face_no)
 {
   std::vector<ContactSegment<dim>> result;
+  std::vector<double> distances;
   std::array<double, 2> ends;
   for (const unsigned int end : {0, 1})
     ends[end] = pair.along * cell->vertex(GeometryInfo<dim>::face_to_cell_vertices(face_no, end));
@@ -188,7 +206,10 @@ std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_line(const ContactI
     };
     result.push_back(
         {begin, end, face.cell, face.face_no, face.degree, on_master(begin), on_master(end)});
+    distances.push_back(std::abs(cross_product_2d(pair.along) *
+                                 (face.drawn.path.ends[0] - cell->face(face_no)->vertex(0))));
   }
+  drop_what_is_behind(result, distances);
   return result;
 }
 
@@ -221,17 +242,7 @@ std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_curve(const Contact
                       both->opposite(end, near), both});
     distances.push_back(std::abs(place->distance));
   }
-  // What lies behind another edge is not opposite.
-  for (unsigned int a = result.size(); a-- > 0;)
-    for (unsigned int b = 0; b < result.size(); ++b)
-      if (a != b && distances[b] < distances[a] &&
-          std::min(result[a].end, result[b].end) - std::max(result[a].begin, result[b].begin) >
-              shortest)
-      {
-        result.erase(result.begin() + a);
-        distances.erase(distances.begin() + a);
-        break;
-      }
+  drop_what_is_behind(result, distances);
   return result;
 }
 

@@ -669,6 +669,24 @@ TEST(DrawnPairs, MeasureWhatHangsOverByItsRadius)
     }
 }
 
+/** Of the other side an edge at whose vertex the last one ends, but for digits, takes no part. */
+TEST(DrawnPairs, LeaveOutWhatBeginsAtAVertex)
+{
+  for (const double over : {0., 3e-6, -3e-6, 1e-3})
+  {
+    const auto edge = [](const double from, const double to) {
+      return EdgePath{{{Point<2>(from, 0), Point<2>(to, 0)}}, {}};
+    };
+    const double vertex = 1 - over;
+    const std::vector<EdgePath> slave{edge(0, 1)}, master{edge(vertex, -20), edge(20, vertex)};
+    std::string problem;
+    const ProjectedEdges edges =
+        edge_projection({{ExactSide(slave), ExactSide(master)}}, 0, 100, problem);
+    ASSERT_EQ(problem, "") << over;
+    EXPECT_EQ(edges.in_pair[1], (std::vector<bool>{true, over > 1e-4})) << over;
+  }
+}
+
 /** A punch with fillets of radius 1 beside its flat foot, of which each has a pair with one bar; and on a rigid floor, where the gap says what is round. */
 TEST(DrawnPairs, PressAFilletBesideAFlatFoot)
 {
@@ -759,6 +777,38 @@ Told told(const Overrides &entries)
   return result;
 }
 
+/** A fork that lies on its side, with one curve above its tines, of which the lower one reaches farther and rises by @p slope. */
+std::string fork(const std::string &name, const double slope)
+{
+  return Drawing{
+      {{-1, 0},
+       {0, 0},
+       {3, 0},
+       {-1, 1},
+       {0, 1},
+       {3, 1 + 3 * slope},
+       {-1, 2},
+       {0, 2},
+       {1.5, 2},
+       {-1, 3},
+       {0, 3},
+       {1.5, 3}},
+      {{{0, 1, 4, 3}}, {{1, 2, 5, 4}}, {{3, 4, 7, 6}}, {{6, 7, 10, 9}}, {{7, 8, 11, 10}}},
+      {{"base", {{0, 1}}},
+       {"base", {{1, 2}}},
+       {"tops", {{4, 5}}},
+       {"tops", {{9, 10}}},
+       {"tops", {{10, 11}}},
+       {"rest", {{2, 5}}},
+       {"rest", {{4, 7}}},
+       {"rest", {{7, 8}}},
+       {"rest", {{8, 11}}},
+       {"rest", {{0, 3}}},
+       {"rest", {{3, 6}}},
+       {"rest", {{6, 9}}}}}
+      .file(name);
+}
+
 /** Pairs of parts are those of whole sides where these say the same: all of it, or a gap that never closes on the rest. */
 TEST(DrawnPairs, TakePartsOfSides)
 {
@@ -778,6 +828,17 @@ TEST(DrawnPairs, TakePartsOfSides)
                                   ring_file("pin", 1, angles(2, [] { return 0.; })),
                                   ring_file("sheet", 2, angles(3, [] { return 0.; }))});
   const Overrides whole{{"Contact joint/Between", "upper.bottom, lower.top"}};
+  const auto on_fork = [](const double slope)
+  {
+    return Overrides{{"Body fork/Shape", "file"},
+                     {"Body fork/File", fork("fork" + text(slope), slope)},
+                     {"Body upper/Lower corner", "0, 3"},
+                     {"Body upper/Upper corner", "3, 4"},
+                     {"Body upper/Subdivisions", "2, 1"},
+                     {"Boundary fork.base/Displacement", "0; 0"},
+                     {"Boundary upper.top/Displacement", "0; -0.05"},
+                     {"Contact joint/Slave", "upper.bottom"}};
+  };
   const auto part = [](const std::string &name, const std::string &on, const std::string &where) {
     return Overrides{{"Boundary " + name + "/On", on}, {"Boundary " + name + "/Where", where}};
   };
@@ -831,6 +892,19 @@ TEST(DrawnPairs, TakePartsOfSides)
                      {"Contact joint/Friction bound", "abs(x - 1.5) > 0.25 ? 0.1 : 0"},
                      {"Contact joint/Slave", "upper.bottom"}}}),
             {"feet", "lower.top (joint)"}},
+           {"a slave above a hole",
+            joined({blocks,
+                    part("banks", "lower.top", "abs(x - 1.5) - 0.25"),
+                    {{"Contact joint/Between", "upper.bottom, banks"},
+                     {"Contact joint/Slave", "upper.bottom"},
+                     {"Body lower/Subdivisions", "12, 2"}}}),
+            joined({blocks,
+                    whole,
+                    {{"Contact joint/Gap", "abs(x - 1.5) > 0.25 ? 0 : 1"},
+                     {"Contact joint/Friction bound", "abs(x - 1.5) > 0.25 ? 0.1 : 0"},
+                     {"Contact joint/Slave", "upper.bottom"},
+                     {"Body lower/Subdivisions", "12, 2"}}}),
+            {"upper.bottom (joint)", "banks (joint)"}},
            {"two pairs on one side",
             joined({blocks,
                     two,
@@ -846,6 +920,18 @@ TEST(DrawnPairs, TakePartsOfSides)
                      {"Boundary cut/Where", "0.025 - abs(x - 0.775)"},
                      {"Contact again/Between", "lower.top, other.bottom"}}}),
             {"upper.bottom", "mine (joint)", "yours (again)", "other.bottom"}},
+           {"a tine before another one",
+            joined({on_fork(0),
+                    part("near", "fork.tops", "y - 2.5"),
+                    {{"Contact joint/Between", "upper.bottom, near"}}}),
+            joined({on_fork(0), {{"Contact joint/Between", "upper.bottom, fork.tops"}}}),
+            {"upper.bottom (joint)", "near (joint)"}},
+           {"a tine before one that is askew",
+            joined({on_fork(0.1),
+                    part("near", "fork.tops", "y - 2.5"),
+                    {{"Contact joint/Between", "upper.bottom, near"}}}),
+            joined({on_fork(0.1), {{"Contact joint/Between", "upper.bottom, fork.tops"}}}),
+            {"upper.bottom (joint)", "near (joint)"}},
            {"two arcs of a roller",
             joined({half_disc("roller", "0, 5", 5, 180),
                     bar(20),
