@@ -95,9 +95,11 @@ std::string closed_in_words(const PairSides &pair, const double closed, const do
            (least < 0 ? " inside each other" : " apart") + " in the drawing, which counts as none";
   const std::string distances = entry + ": distances of " + sides + " in the drawing, from " +
                                 to_string(least) + " to " + to_string(largest) + ", ";
-  return distances + (least > closed                          ? "are all larger, and count"
-                      : -least <= closed && largest <= closed ? "count as none"
-                                                              : "count as none up to it");
+  return distances + (least > closed ? "are all larger, and count"
+                      : -least <= closed && largest <= closed
+                          ? "count as none"
+                          : "count as none up to it, so that the sides lie flat on each "
+                            "other there; if they shall touch in a point, move a body");
 }
 
 /** What is positive where @p facing is, in the part. */

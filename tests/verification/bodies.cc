@@ -1101,6 +1101,32 @@ TEST(Bodies, CloseSmallGapsOfTheDrawing)
             EXPECT_NEAR(point.normal_traction, -1, row.tolerance) << row.law << row.corners;
         });
   }
+  // Distances that vary count as none up to it, and are meant beyond.
+  const Scene<2> wedge = scene_of({{"Body lower/Upper corner", "2, 1"},
+                                   {"Body lower/Subdivisions", "3, 1"},
+                                   {"Body upper/Shape", "quadrilateral"},
+                                   {"Body upper/Corners", "0, 0.999; 2, 1.003; 2, 2; 0, 2"},
+                                   {"Contact joint/Between", "upper.bottom, lower.top"},
+                                   {"Contact joint/Slave", "lower.top"},
+                                   {"Contact joint/Closed within", "0.0015"},
+                                   {"Boundary lower.bottom/Displacement", "0; 0"},
+                                   {"Boundary upper.top/Displacement", "0; 0"}});
+  const Expression<2> gap = wedge.boundaries[wedge.pairs.at(0).parts[1]].gap;
+  for (const double x : {0.1, 0.4, 0.6, 1.2, 1.24, 1.26, 1.5, 1.9})
+    EXPECT_NEAR(gap->value(Point<2>(x, 1)), x < 1.25 ? 0. : 0.002 * x - 0.001, 1e-6) << x;
+  // Where they shall touch in a point it is no remedy, and says so.
+  const Scene<2> disc = scene_of({{"Body disc/Shape", "half disc"},
+                                  {"Body disc/Centre", "0, 0.999"},
+                                  {"Body disc/Angle", "180"},
+                                  {"Body lower/Lower corner", "-2, -1"},
+                                  {"Body lower/Upper corner", "2, 0"},
+                                  {"Contact joint/Between", "disc.arc, lower.top"},
+                                  {"Contact joint/Closed within", "0.002"},
+                                  {"Boundary lower.bottom/Displacement", "0; 0"},
+                                  {"Boundary disc.flat/Displacement", "0; 0"}});
+  EXPECT_TRUE(std::any_of(disc.remarks.begin(), disc.remarks.end(),
+                          [](const std::string &remark)
+                          { return remark.find("lie flat on each other") != std::string::npos; }));
   // Beyond it the drawing is meant.
   EXPECT_NEAR(solved(scene_of({{"Body lower/Upper corner", "2, 1"},
                                {"Body upper/Lower corner", "0, 1.01"},
