@@ -49,6 +49,43 @@ TEST(GrowingPeaks, StayWhereTheyAre)
   EXPECT_TRUE(growing_extrema(elsewhere).empty());
 }
 
+/** Around a vertex of one mesh the stress has to grow by 15 % from ring to ring, and no less near it than far away. */
+TEST(GrowingPeaks, HaveRingsThatGrowInwards)
+{
+  struct Row
+  {
+    std::vector<double> rings; ///< the largest stress in each, the innermost first
+    bool grows;
+  };
+  AdaptiveSolver<2>(scene_of({{"Geometry/Subdivisions", "2, 2"},
+                              {"Boundary left/Displacement", "0; 0"},
+                              {"Boundary right/Traction", "1; 0"},
+                              {"Adaptivity/Maximum steps", "1"}}))
+      .run(
+          [](const StepReport<2> &step)
+          {
+            const Sample peak{2, 8., Point<2>(0.501, 0), 0.01};
+            for (const Row &row : {Row{{8, 4, 2, 1}, true}, Row{{1.76, 1.45, 1.2, 1}, true},
+                                   Row{{1.51, 1.32, 1.16, 1}, false}, // 14 % at the vertex
+                                   Row{{1.51, 1.31, 1.14, 1}, false}, // and farthest away
+                                   Row{{2.8, 2.3, 1.6, 1}, false},    // rounder the nearer it is
+                                   Row{{8, 4, 0, 1}, false}, Row{{8, 4, 2, 0}, false},
+                                   Row{{9, 4, 2, 1}, false}}) // of a peak beside it
+            {
+              std::vector<Sample> samples;
+              for (unsigned int k = 0; k < 4; ++k)
+              {
+                const double radius = 0.0075 * (1U << k);
+                samples.push_back({2, row.rings[k], Point<2>(0.5 + radius, 0), 0.01});
+                samples.push_back({2, 0.9 * row.rings[k], Point<2>(0.5 - radius, 0), 0.01});
+                samples.push_back({1, 99., Point<2>(0.5, radius), 0.01});
+              }
+              EXPECT_EQ(extrema_of_rings({peak}, samples, step.field).size(), row.grows ? 1U : 0U)
+                  << row.rings[0] << ' ' << row.rings[2];
+            }
+          });
+}
+
 /** Two corners in turn the larger one: both grow. */
 TEST(GrowingPeaks, MayBeTwoAtATime)
 {

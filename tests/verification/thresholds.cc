@@ -3,6 +3,7 @@
 // that another number would decide otherwise.
 #include "discretisation.h"
 
+#include <hpvi/base/finite.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/driver/limits.h>
@@ -10,6 +11,9 @@
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/results/solution_field.h>
 #include <hpvi/results/unseen_contact.h>
+
+#include <limits>
+#include <tuple>
 
 namespace
 {
@@ -251,10 +255,89 @@ TEST(Thresholds, RoundOffEndsARunAtAFewTimesItself)
         };
         EXPECT_EQ(limit_at(2 * round_off), "round-off");
         EXPECT_EQ(limit_at(20 * round_off), "");
+        // Up to a hundred times itself where strains are below it, or where it falls no further.
+        const auto limit_after =
+            [&](const double before, const double estimate, const double relative)
+        {
+          History<2> history;
+          if (before > 0)
+            history.push_back({before, 1e-3, 1e-3, 0.});
+          history.push_back({estimate, relative, 1e-3, 0.});
+          return reached_limit<2>(scene, history, {1, step.solution().u.linfty_norm(), 0., [&]() {
+                                                     return round_off;
+                                                   }});
+        };
+        EXPECT_EQ(limit_after(0, 90 * round_off, 1.1), "round-off");
+        EXPECT_EQ(limit_after(0, 90 * round_off, 0.9), "");
+        EXPECT_EQ(limit_after(0, 110 * round_off, 1.1), "");
+        EXPECT_EQ(limit_after(21 * round_off, 20 * round_off, 1e-3), "round-off");
+        EXPECT_EQ(limit_after(23 * round_off, 20 * round_off, 1e-3), "");
       });
 }
 
 /** The load moves along the top: its mesh has to follow until the indicator is that of the first load step. */
+/** Units are the cause where numbers overflow, and of no 0/0 of moderate ones. */
+TEST(Thresholds, UnitsAreBlamedWhereNumbersOverflow)
+{
+  const double none = std::numeric_limits<double>::quiet_NaN(),
+               infinite = std::numeric_limits<double>::infinity();
+  EXPECT_NO_THROW(check_finite("the energy", 1e300, 1e300));
+  for (const auto &[value, size, words] : {std::make_tuple(none, 1e99, "0 divided by 0"),
+                                           {none, 1e101, "choose units"},
+                                           {infinite, 1., "choose units"}})
+    try
+    {
+      check_finite("the energy", value, size);
+      ADD_FAILURE() << size;
+    }
+    catch (const NumericalFailure &failure)
+    {
+      EXPECT_NE(std::string(failure.what()).find(words), std::string::npos) << failure.what();
+    }
+}
+
+/** A relative error of 0.5 of a displacement that is 1e-2 of the largest so far is 5e-3 of that. */
+TEST(Thresholds, RoundOffIsBesideTheLargestDisplacementSoFar)
+{
+  AlgebraicError error;
+  error.relative = 0.5;
+  error.energy_product = 1;
+  const double square = round_off_of_data * round_off_of_data;
+  EXPECT_THROW(check_algebraic_error(error, 0.), NumericalFailure);
+  EXPECT_THROW(check_algebraic_error(error, 2.4e3 * square), NumericalFailure);
+  EXPECT_NO_THROW(check_algebraic_error(error, 2.6e3 * square));
+}
+
+/** What is missed of a gap counts up to three times the displacement, on edges that have the condition. */
+TEST(Thresholds, GapsOutOfReachAreNotMissed)
+{
+  const Scene<2> scene = square({{"Boundary bottom/Contact", "unilateral"},
+                                 {"Boundary bottom/Gap", "1"},
+                                 {"Boundary top/Displacement", "0; -0.1"}});
+  const CoarseSpaces coarse(scene, 2);
+  Solution<2> solution = coarse.at_rest(scene);
+  solution.u[0] = -0.1;
+  struct Row
+  {
+    std::string name;
+    double value, interpolated;
+    bool is_gap, stays;
+  };
+  for (const Row &row :
+       {Row{"Gap on bottom", 0.31, 0.5, true, false}, Row{"Gap on bottom", 0.29, 0.5, true, true},
+        Row{"Gap on bottom", 5, 0.29, true, true}, Row{"Gap on top", 0.29, 0.5, true, false},
+        Row{"Displacement on top", 0.31, 0.5, false, true}})
+  {
+    MissedDisplacement<2> missed{};
+    missed.name = row.name;
+    missed.value = row.value;
+    missed.interpolated = row.interpolated;
+    missed.is_gap = row.is_gap;
+    EXPECT_EQ(within_reach<2>({missed}, solution).size(), row.stays ? 1U : 0U)
+        << row.name << row.value;
+  }
+}
+
 TEST(Thresholds, LoadStepsAreAsFineAsTheFirstByTheResidualIndicator)
 {
   const Scene<2> scene = scene_of({{"Geometry/Upper corner", "4, 1"},
