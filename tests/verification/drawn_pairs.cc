@@ -831,7 +831,7 @@ TEST(DrawnPairs, TakePartsOfSides)
   const auto on_fork = [](const double slope)
   {
     return Overrides{{"Body fork/Shape", "file"},
-                     {"Body fork/File", fork("fork" + text(slope), slope)},
+                     {"Body fork/File", fork("fork" + in_digits(slope), slope)},
                      {"Body upper/Lower corner", "0, 3"},
                      {"Body upper/Upper corner", "3, 4"},
                      {"Body upper/Subdivisions", "2, 1"},
