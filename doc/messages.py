@@ -28,7 +28,7 @@ HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material N
            "Missing": ("failed", ""), "InadmissibleContact": ("failed", "")}
 # Functions that pass on what others say, or the words of the system, as NOUN:FUNCTION; what they say beside that is not passed on.
 PASSED_ON = {
-    "base/parameter_file:", "base/parameter_file:fail", "base/processes:together", "base/file_format:reject", "checks/rejection:reject",
+    "base/parameter_file:", "base/parameter_file:fail", "base/processes:collectively", "base/file_format:reject", "checks/rejection:reject",
     "checks/rejection:check_value", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
     "checks/shape:check_materials", "driver/load_history:run", "driver/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",

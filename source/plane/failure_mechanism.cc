@@ -169,7 +169,7 @@ std::string entry_of(const BoundaryCondition<dim> &condition)
   return condition.friction ? condition.friction.entry_to_raise() : "";
 }
 
-/** One way to give way: what is missing to resist, in parts of the loads, and what to say. */
+/** One mechanism: what is missing to resist, in parts of the loads, and what to say. */
 struct FailureMechanism
 {
   double excess = 0;

@@ -60,8 +60,8 @@ Expression<dim> read_where(const Parameters &parameters, const std::string &sect
 namespace
 {
 /** The value of an entry of the whole body, which any material may name; they have to agree. */
-std::string memoised(const Parameters &parameters, const std::vector<Material> &materials,
-                     const std::string &entry)
+std::string common_value(const Parameters &parameters, const std::vector<Material> &materials,
+                         const std::string &entry)
 {
   std::string named_by = section_of_material("");
   for (const Material &material : materials)
@@ -88,13 +88,13 @@ void read_materials(const Parameters &parameters, const std::vector<std::string>
     scene.materials.push_back(read_material(parameters, dim, name));
   if (dim == 3)
     return;
-  const PlaneModel plane = plane_model(memoised(parameters, scene.materials, "Plane"));
+  const PlaneModel plane = plane_model(common_value(parameters, scene.materials, "Plane"));
   for (Material &material : scene.materials)
   {
     material.plane = plane;
     read_elasticity(parameters, material);
   }
-  scene.thickness = std::stod(memoised(parameters, scene.materials, "Thickness"));
+  scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
 }
 
 /** Materials that have the name of a surface of the mesh are those of it. */

@@ -36,7 +36,7 @@ unsigned int pool_size();
 
 /**
  * work(begin, end) for parts of 0, ..., n - 1 that follow on one another, each of @p grain, the last of what is left; by all threads of the
- * team, each taking the first part that is left, the calling one the very first. A part may call it, too: whoever has nothing to do helps,
+ * thread pool, each taking the first part that is left, the calling one the very first. A part may call it, too: whoever has nothing to do helps,
  * and so does whoever waits for that part.
  * Parts do not depend on the number of threads: where results of one part do not depend on another, nothing does. Throws what the first of
  * all parts that threw has thrown; parts behind it may not have been worked on.

@@ -11,7 +11,7 @@ template <int dim>
 std::string friction_entry(const ContactSpace<dim> &contact_space);
 
 /**
- * How a body, or several that move as one, give way whose loads exceed what contact can carry, in the words of statics and
+ * The failure mechanism of a body, or of several that move as one, whose loads exceed what contact can carry, in the words of statics and
  * with its numbers, a force N = L(n), T = L(t) and moments about the ends of a boundary:
  *
  *     lifting off it,  N < 0;   sliding along it,  |T| > int g or mu_f N;   toppling about an end,
