@@ -42,10 +42,12 @@ def finding(run, files, directory):
     if run.status != 0 and (wrong := of_line(run.errors)):
         return wrong
     line = run.errors.decode("utf-8", "replace")
-    if run.status == 1 and not line.startswith((*files, "hpvi:")):
+    if run.status == 1 and not line.startswith((*files, "hpvi:")) and all(map(str.isprintable, files)):
         return "the line names no file"
     if "out of memory" in line:
         return "runs out of memory"
+    if directory.exists() and run.writes_nothing:
+        return "files were written"
     if directory.exists():
         try:
             return of_results(directory, run.status)

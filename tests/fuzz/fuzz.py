@@ -110,7 +110,8 @@ class Program:
 
     def reads_what_it_prints(self, spoilt):
         printed = (self.scratch / "stdout").read_bytes()
-        run, _ = self.run({**spoilt.files, "scene.prm": printed}, ["scene.prm", "--print-parameters"])
+        scene = next(iter(spoilt.files))
+        run, _ = self.run({**spoilt.files, scene: printed}, [scene, "--print-parameters"])
         if run.status != 0:
             return "what it prints is refused"
         return "" if (self.scratch / "stdout").read_bytes() == printed else "what it prints is read otherwise"
@@ -118,13 +119,14 @@ class Program:
 
 def shortened(program, spoilt, wrong, most=60):
     """The same finding with fewer lines and overrides, by halves, quarters and so on."""
-    lines = spoilt.files["scene.prm"].split(b"\n")
+    scene = next(iter(spoilt.files))
+    lines = spoilt.files[scene].split(b"\n")
     pairs = [spoilt.arguments[i:i + 2] for i, a in enumerate(spoilt.arguments) if a == "--set"]
     rest = [a for i, a in enumerate(spoilt.arguments) if a != "--set" and (i == 0 or spoilt.arguments[i - 1] != "--set")]
     count = 0
 
     def build(lines, pairs):
-        return dataclasses.replace(spoilt, files={**spoilt.files, "scene.prm": b"\n".join(lines)}, arguments=rest + sum(pairs, []))
+        return dataclasses.replace(spoilt, files={**spoilt.files, scene: b"\n".join(lines)}, arguments=rest + sum(pairs, []))
 
     for which in (lines, pairs):
         piece = max(1, len(which) // 2)

@@ -8,12 +8,13 @@ import re
 import subprocess
 
 NUMBERS = """0 -0 1 -1 2 3 7 0.5 -0.5 0.1 1e-3 1e-8 1e3 1e8 1e30 1e-30 1e100 1e-101 1e200 -1e200 1e308 1.8e308 5e-324 1e-310 nan inf -inf
-+1 .5 5. 1e 0x10 99999999999 4294967296 -2147483649 007 1_000 180 360 -90 0.4999 0.499999999 1e-12""".split()
++1 .5 5. 1e 0x10 99999999999 4294967296 -2147483649 007 1_000 180 360 -90 1e-5 1e5 1e-400 1,5 1;5 pi E 0.4999 0.499999999 1e-12""".split()
 FUNCTIONS = ["sin(3*x)", "cos(2*y)", "exp(-x)", "if(x<0.3,1,2)", "(x>0.5)", "x", "y", "x*y", "t", "sin(6*t)", "(1-t)", "max(0,x-0.4)", "(x-0.5)^2",
              "abs(y-0.3)", "sqrt(x)", "1/x", "1/(x-0.5)", "log(x)", "1e-9", "1e9", "E", "nu", "mu", "z", "(0.49<x && x<0.51)", "x^40"]
 TEXTS = ["", " ", "\t", "x", "sin(", ")", "1/0", "sqrt(-1)", "x=1", "x==1", "(1,2)", "\"a\"", "rand()", "free", "exact", "free; free", "0; free", "exact; exact",
          ";", ";;", ",", "\\", "'", "\u00a0", "\u2028", "\u202e", "\u00e9", "\u2212" + "1", "\x1b[31m", "\x7f", "0,\t1", "0,0; 1,0; 1,1; 0,1", "0,,1", "(" * 300, "1+" * 2000 + "1",
-         "a" * 5000, "{", "true", "false", "none", "/", "..", "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "left; right", "1; 2; 3", "0.1; -0.1"]
+         "a" * 5000, "{", "true", "false", "none", "/", "..", "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "left; right", "1; 2; 3", "0.1; -0.1", "x^1000", "rand_seed(1)", "x<1?2:3", "e", "1e200*x", "#", "\u0085", "\0",
+         "0\t,1", "0,0;\t1,0; 1,1; 0,1", "0,0; 1,0; 1,1e-9; 0,1", "0,0; 1,0; 1,1; 0,1;"]
 BYTES = [bytes([b]) for b in (0, 1, 9, 10, 13, 32, 34, 35, 44, 45, 46, 48, 57, 59, 61, 92, 101, 128, 195, 237, 255)]
 NUMBER = re.compile(r"(?<![\w.])-?\d+\.?\d*(?:[eE][-+]?\d+)?")
 # What keeps a run short; each may be spoilt as any other entry, and is no limit then.
@@ -112,11 +113,12 @@ class Mutator:
         for _ in range(self.choose((0, 1, 1, 1, 1, 1, 2, 2, 3))):
             self.mutate()
         data = "\n".join(self.lines).encode("utf-8", "surrogateescape")
-        files = {"scene.prm": self.bytes_spoilt(data) if self.happens(0.05) else data}
-        for name in re.findall(r"^\s*set File\s*=\s*(\S+)", text, re.M):
-            mesh = (scene.parent / name).read_bytes()
-            files[name] = self.mesh_spoilt(mesh) if self.happens(0.4) else mesh
-        arguments = ["scene.prm"]
+        name = self.choose(("a\nb.prm", "\x1b[31m.prm", "\u00e9.prm")) if self.happens(0.05) else "scene.prm"
+        files = {name: self.bytes_spoilt(data) if self.happens(0.05) else data}
+        for drawing in re.findall(r"^\s*set File\s*=\s*(\S+)", text, re.M):
+            mesh = (scene.parent / drawing).read_bytes()
+            files[drawing] = self.mesh_spoilt(mesh) if self.happens(0.4) else mesh
+        arguments = [name]
         settled = {**self.limits(text), **dict(self.overrides)}
         if any(path == "Loading/Steps" and re.fullmatch(r"\+?\d{2,9}|\d+e\d", value) for path, value in settings(data.decode(errors="replace")) + list(settled.items())):
             settled["Loading/Steps"] = "3"  # more take their time, and may
