@@ -149,8 +149,7 @@ void set_energy(ErrorBound &result, const Solution<2> &solution,
   result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + gap;
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
-               unknown =
-                   (result.stress + w + result.oscillation) * data.lift + data.missed_work;
+               unknown = (result.stress + w + result.oscillation) * data.lift + data.missed_work;
   const bool is_admissible = !is_moved && data.lift == 0.; // u_N itself
   result.energy_above = is_admissible ? 0. : centre + unknown;
   result.energy_below = result.energy + unknown - centre;
