@@ -37,7 +37,7 @@ EdgeBubbles::Energies EdgeBubbles::energies(const Traces &traces, const Scene<2>
       elements[ElementMatrices<2>(scene, tables).congruence_class(face.map, q, material)];
   if (!element)
     element = CondensedElements<2>(scene, tables).get(face.map, q, material);
-  const FullMatrix<double> K = element->condensed.full();
+  const FullMatrix<double> &K = element->condensed;
   FullMatrix<double> b(K.m(), n), forces(K.m(), n);
   unsigned int first = 0;
   for (const auto &[on_face, columns] : traces)

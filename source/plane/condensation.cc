@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/lac/lapack_support.h>
+#include <deal.II/lac/lapack_templates.h>
 #include <hpvi/algebra/triangular.h>
 #include <hpvi/plane/condensation.h>
 #include <hpvi/plane/initial_stress.h>
@@ -33,10 +34,7 @@ void factor_interior(const FullMatrix<double> &K, const unsigned int n_boundary,
 
 void CondensedElement::solve_inside(double *const x) const
 {
-  if (interior.n() > 0)
-    interior.solve(x);
-  else
-    solve_by_cholesky(extension.m(), factor, x);
+  solve_by_cholesky(n_interior, factor, x);
 }
 
 template <int dim>
@@ -58,7 +56,7 @@ std::shared_ptr<CondensedElement>
 CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int n_boundary) const
 {
   auto element = std::make_shared<CondensedElement>();
-  const unsigned int n_interior = K.m() - n_boundary;
+  const unsigned int n_interior = element->n_interior = K.m() - n_boundary;
   FullMatrix<double> condensed(n_boundary, n_boundary);
   condensed.fill(K, 0, 0, 0, 0);
   if (n_interior > 0)
@@ -73,37 +71,44 @@ CondensedElements<dim>::condense(const FullMatrix<double> &K, const unsigned int
     extension = K_ib;
     K_bi.fill(K, 0, 0, 0, n_boundary);
     K_bi.mmult(condensed, extension, /*adding=*/true);
-    element->extension = PooledMatrix(extension);
+    element->extension = extension;
     if (interior_loads)
       element->factor.assign(&K_ii(0, 0), &K_ii(0, 0) + K_ii.n_elements());
   }
-  element->condensed = PooledMatrix(condensed);
+  element->condensed = condensed;
   return element;
 }
 
-// With `K_ii = L L'` and `W = K_bi L'^-1` what is left is `K_bb - W W'`.
+// With `K_ii = L L'` and `W = L^-1 K_ib` what is left is `K_bb - W' W`.
 template <int dim>
 std::shared_ptr<CondensedElement> CondensedElements<dim>::condense(std::vector<double> &K,
                                                                    const unsigned int n,
                                                                    const unsigned int n_boundary)
 {
   auto element = std::make_shared<CondensedElement>();
-  const unsigned int n_interior = n - n_boundary;
-  double *const K_bi = &K[n_interior], *const K_bb = K_bi + std::size_t(n_interior) * n;
-  if (n_interior > 0)
+  const types::blas_int n_i = n - n_boundary, n_b = n_boundary, stride = n;
+  double *const K_bb = &K[n_i] + std::size_t(n_i) * n;
+  if (n_i > 0)
   {
-    AssertThrow(cholesky.factor(n, n_interior, K.data(), n), LACExceptions::ExcSingular());
-    subtract_square(n_boundary, n_interior, {K_bi, n}, K_bb, n);
-    element->interior = BlockFactor(cholesky, pool);
+    AssertThrow(cholesky(n_i, K.data(), n), LACExceptions::ExcSingular());
+    std::vector<double> W(std::size_t(n_i) * n_b);
+    element->factor.resize(std::size_t(n_i) * n_i);
+    for (types::blas_int j = 0; j < n_i; ++j)
+    {
+      const double *const column = &K[std::size_t(j) * n];
+      std::copy(column + j, column + n_i, &element->factor[std::size_t(j) * n_i + j]);
+      for (types::blas_int i = 0; i < n_b; ++i)
+        W[std::size_t(i) * n_i + j] = column[n_i + i];
+    }
+    solve_triangular('N', n_i, n_b, {element->factor.data(), unsigned(n_i)}, W.data(), n_i);
+    const double minus = -1, one = 1;
+    syrk("L", "T", &n_b, &n_i, &minus, W.data(), &n_i, &one, K_bb, &stride);
   }
-  element->condensed = PooledMatrix(n_boundary, n_boundary, pool);
+  element->condensed.reinit(n_boundary, n_boundary);
   for (unsigned int j = 0; j < n_boundary; ++j)
-  {
-    const double *const column = K_bb + std::size_t(j) * n;
-    std::copy(column + j, column + n_boundary, element->condensed.row(j) + j);
-    for (unsigned int i = j + 1; i < n_boundary; ++i)
-      element->condensed.row(i)[j] = column[i];
-  }
+    for (unsigned int i = j; i < n_boundary; ++i)
+      element->condensed(i, j) = element->condensed(j, i) = K_bb[std::size_t(j) * n + i];
+  element->n_interior = n_i;
   return element;
 }
 
@@ -141,13 +146,13 @@ namespace
 {
 /** T' K T, first its rows, then its columns: T is nearly the identity. */
 FullMatrix<double> congruence(const std::vector<ConstraintEntry> &T, const unsigned int n_targets,
-                              const PooledMatrix &K)
+                              const FullMatrix<double> &K)
 {
   FullMatrix<double> rows(n_targets, K.n()), result(n_targets, n_targets);
   for (const ConstraintEntry &entry : T)
   {
     double *const sum = &rows(entry.target, 0);
-    const double *const row = K.row(entry.local);
+    const double *const row = &K(entry.local, 0);
     for (unsigned int j = 0; j < K.n(); ++j)
       sum[j] += entry.weight * row[j];
   }
@@ -198,8 +203,8 @@ Condensation<dim>::Condensation(const DisplacementSpace<dim> &space,
       const unsigned int index = cell->active_cell_index();
       elements[index] =
           condensed.get(map_of<dim>(cell), space.degrees()[index], cell->material_id());
-      if (elements[index]->n_interior() > 0)
-        (elements[index]->interior.n() > 0 ? with_interior : with_extension).push_back(index);
+      if (elements[index]->n_interior > 0)
+        (elements[index]->extension.empty() ? with_interior : with_extension).push_back(index);
     }
 }
 
@@ -218,7 +223,7 @@ void Condensation<dim>::for_each_extension(const F &f) const
   Vector<double> inside, boundary; // keep their memory from cell to cell
   for (const unsigned int cell : with_extension)
   {
-    const PooledMatrix &extension = elements[cell]->extension;
+    const FullMatrix<double> &extension = elements[cell]->extension;
     inside.reinit(extension.m(), /*omit_zeroing_entries=*/true);
     boundary.reinit(extension.n(), /*omit_zeroing_entries=*/true);
     f(extension, space.cell_dofs(cell), inside, boundary);
@@ -324,7 +329,7 @@ void Condensation<dim>::solve_inside(const std::vector<unsigned int> &cells,
   {
     const auto dofs = space.cell_dofs(cell);
     const unsigned int n_boundary = elements[cell]->condensed.m();
-    inside.reinit(elements[cell]->n_interior(), /*omit_zeroing_entries=*/true);
+    inside.reinit(elements[cell]->n_interior, /*omit_zeroing_entries=*/true);
     for (unsigned int i = 0; i < inside.size(); ++i)
       inside[i] = forces[dofs[n_boundary + i]];
     solve(*elements[cell], inside);

@@ -74,7 +74,7 @@ ElasticSystem<dim>::ElasticSystem(const Scene<dim> &scene, const DisplacementSpa
   for (const SpringFace &face : spring_faces(scene, space, tables))
   {
     const auto element = std::make_shared<CondensedElement>();
-    element->condensed = PooledMatrix(face.matrix);
+    element->condensed = face.matrix;
     springs.push_back(element);
     contributions.push_back(reduce(face.cell, element, face.dofs, unknowns, elements));
   }
@@ -99,7 +99,7 @@ ElasticSystem<dim>::reduce(const unsigned int cell,
                            const ArrayView<const types::global_dof_index> dofs,
                            const Unknowns<dim> &unknowns, CondensedElements<dim> &elements)
 {
-  const PooledMatrix &K = element->condensed;
+  const FullMatrix<double> &K = element->condensed;
   const unsigned int n = K.m();
   Contribution result;
   result.cell = cell;
@@ -122,7 +122,7 @@ ElasticSystem<dim>::reduce(const unsigned int cell,
     prescribed[i] = unknowns.prescribed(dofs[i]);
     has_prescribed = has_prescribed || prescribed[i] != 0.;
   }
-  result.values = K.row(0);
+  result.values = &K(0, 0);
   if (!is_identity && !result.targets.empty())
   {
     constrained.push_back(elements.constrained(element, T, result.targets.size()));

@@ -344,7 +344,7 @@ TEST(CongruenceCache, ConstrainedMatricesAreCongruentAndShared)
   FullMatrix<double> dense(n, n_targets), KT(n, n_targets), expected(n_targets, n_targets);
   for (const ConstraintEntry &entry : T)
     dense(entry.local, entry.target) += entry.weight;
-  element->condensed.full().mmult(KT, dense);
+  element->condensed.mmult(KT, dense);
   dense.Tmmult(expected, KT);
   auto matrix = stiffnesses.constrained(element, T, n_targets);
   expected.add(-1., *matrix);

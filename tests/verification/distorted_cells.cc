@@ -194,49 +194,6 @@ TEST_P(DistortedCells, AreCondensedAsByDenseElimination)
                 });
 }
 
-/** Blocks of columns, the last of them narrower, and rows below: a factor where there is one, else word of it. */
-TEST(BlockCholesky, FactorsWhatIsPositiveDefinite)
-{
-  constexpr unsigned int n = 19, rows = 24;
-  for (const unsigned int bad : {n, 0U, 7U, 8U, 18U}) // which pivot is negative, n for none
-  {
-    std::vector<double> L(rows * n), A(rows * n);
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = j; i < rows; ++i)
-        L[j * rows + i] = i == j ? 2 + 0.1 * j : std::cos(3. * i + 5. * j) / 3;
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = j; i < rows; ++i)
-        for (unsigned int k = 0; k <= j; ++k)
-          A[j * rows + i] += (k == bad ? -1. : 1.) * L[k * rows + i] * L[k * rows + j];
-    BlockCholesky cholesky;
-    ASSERT_EQ(cholesky.factor(rows, n, A.data(), rows), bad == n) << bad;
-    if (bad != n)
-      continue;
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = j; i < rows; ++i)
-        EXPECT_NEAR(A[j * rows + i], L[j * rows + i], 1e-14) << i << ' ' << j;
-    // (L L')^-1 x, multiplied by L L'.
-    MatrixPool pool;
-    const BlockFactor factor(cholesky, pool);
-    ASSERT_EQ(factor.n(), n);
-    std::vector<double> y(n), y_factored(n, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      y[i] = std::sin(1. + i);
-    std::vector<double> x = y;
-    factor.solve(x.data());
-    for (unsigned int k = 0; k < n; ++k)
-    {
-      double sum = 0;
-      for (unsigned int i = k; i < n; ++i)
-        sum += L[k * rows + i] * x[i];
-      for (unsigned int i = k; i < n; ++i)
-        y_factored[i] += L[k * rows + i] * sum;
-    }
-    for (unsigned int i = 0; i < n; ++i)
-      EXPECT_NEAR(y_factored[i], y[i], 1e-13) << i;
-  }
-}
-
 /** Parallelograms have a matrix for it, other cells strains: both between them on one mesh, and forces the other way. */
 TEST(Condensation, FindsTheWayIntoCellsAndOut)
 {
@@ -269,7 +226,7 @@ TEST(Condensation, FindsTheWayIntoCellsAndOut)
                        n_b = matrices.n_boundary(p);
     const auto dofs = space.cell_dofs(index);
     const DenseElimination dense(matrices.stiffness(map_of<2>(cell), p, cell->material_id()), n_b);
-    n_own += condensation.element(index)->interior.n() > 0;
+    n_own += p > 1 && condensation.element(index)->extension.empty();
     n_shared += condensation.element(index)->extension.m() > 0;
     for (unsigned int i = 0; i + n_b < dofs.size(); ++i)
     {

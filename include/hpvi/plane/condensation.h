@@ -3,10 +3,8 @@
 #define hpvi_condensation_h
 
 #include <boost/functional/hash.hpp>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
-#include <hpvi/algebra/block_cholesky.h>
-#include <hpvi/algebra/block_factor.h>
-#include <hpvi/algebra/pooled_matrix.h>
 #include <hpvi/plane/displacement_space.h>
 #include <hpvi/plane/element_matrices.h>
 
@@ -24,23 +22,16 @@ namespace hpvi
  */
 struct CondensedElement
 {
-  PooledMatrix condensed; ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
-
-  // Of a parallelogram, which many cells share:
-  PooledMatrix extension; ///< -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b
-  std::vector<double>
-      factor; ///< of K_ii by columns, n_i x n_i; empty unless loads act in the interior
+  dealii::FullMatrix<double> condensed; ///< K_bb - K_bi K_ii^-1 K_ib, n_b x n_b
+  unsigned int n_interior = 0;          ///< n_i
 
   /**
-   * K_ii of another cell, which has its matrices for itself. Condensation finds from strains what K_ib does: the extension
-   * would be a fifth of all work at the cell.
+   * -K_ii^-1 K_ib, n_i x n_b: u_i = extension u_b. Of a parallelogram, which many cells share; of another cell Condensation finds from
+   * strains what K_ib does: this would be a fifth of all work at the cell.
    */
-  BlockFactor interior;
-
-  unsigned int n_interior() const
-  {
-    return extension.m() + interior.n();
-  }
+  dealii::FullMatrix<double> extension;
+  std::vector<double>
+      factor; ///< of K_ii by columns, n_i x n_i; of a parallelogram none unless loads act in the interior
 
   /** `x := K_ii^-1 x`; of a parallelogram where loads act in the interior. */
   void solve_inside(double *x) const;
@@ -111,9 +102,7 @@ private:
 
   const ElementMatrices<dim> matrices;
   const bool interior_loads;
-  MatrixPool pool;              ///< of cells that are no parallelograms: each has its own matrices
   std::vector<double> triangle; ///< keeps its memory from cell to cell
-  BlockCholesky cholesky;       ///< likewise
   std::map<typename ElementMatrices<dim>::Class, std::weak_ptr<const CondensedElement>> known;
 
   using ConstrainedKey =
