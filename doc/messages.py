@@ -21,7 +21,7 @@ TOKEN = re.compile(r"""(?P<comment>//[^\n]*|/\*.*?\*/|^\#[^\n]*)|R"\((?P<raw>.*?
                        |'(?P<char>(?:[^'\\]|\\.)*)'|(?P<word>[A-Za-z_]\w*)|(?P<number>\d[\w.]*)
                        |(?P<sign><<|>>|->|::|\+=|&&|\|\||[<>=!]=|\S)|\n""", re.S | re.X | re.M)
 # What throws, and the kind of what it says.
-THROWERS = {"InputError": "refused", "reject": "refused", "fail": "refused", "complain": "refused", "at": "refused",
+THROWERS = {"InputError": "refused", "reject": "refused", "Objection": "refused", "fail": "refused", "complain": "refused", "at": "refused",
             "damaged": "refused", "NumericalFailure": "failed", "MemoryFailure": "failed", "OutputFailure": "unwritten"}
 # Values that hold a message, and the section it is about.
 HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material NAME"), "Problem": ("refused", "Boundary NAME"),
@@ -29,7 +29,7 @@ HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material N
 # Functions that pass on what others say, or the words of the system, as NOUN:FUNCTION; what they say beside that is not passed on.
 PASSED_ON = {
     "base/parameter_file:", "base/parameter_file:fail", "base/processes:collectively", "base/file_format:reject", "checks/rejection:reject",
-    "checks/rejection:check_value", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
+    "checks/rejection:check_value", "checks/method:check_primal_path", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
     "checks/shape:check_materials", "driver/load_history:run", "driver/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
     "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up", "output/result_directory:path", "output/result_directory:take_lock",
@@ -319,7 +319,7 @@ class Sources:
                 if code[k].kind != "word" or code[k - 1].text in ("class", "struct", "void"):
                     continue
                 name = code[k].text
-                if (name in THROWERS and is_sign(code[k + 1], "(")) or (name in HOLDERS and code[k + 1].text == "{") \
+                if (name in THROWERS and is_sign(code[k + 1], "(")) or (name in {*HOLDERS, "Objection"} and code[k + 1].text == "{") \
                         or (name == "Missing" and code[k + 2].text == "{"):
                     arguments, end = group(code, k + (2 if code[k + 1].kind == "word" else 1))
                     if self.is_said(noun, code, k, arguments, end):
@@ -358,8 +358,8 @@ class Sources:
         if name in HOLDERS:
             entry = texts[0] if section else ""
             texts = [max(texts[1:] or texts, key=len)]
-        elif name in ("reject", "fail") and len(arguments) >= 3:
-            first = 0 if name == "fail" or self.code[noun][k - 1].text in (".", "->") or len(arguments) == 3 else 1
+        elif name in ("reject", "fail", "Objection") and len(arguments) >= 3:
+            first = 0 if name != "reject" or self.code[noun][k - 1].text in (".", "->") or len(arguments) == 3 else 1
             if name == "fail":
                 section, texts = (texts[1] if has_words(texts[1]) else ""), texts[2:3]
             else:
@@ -385,7 +385,7 @@ class Sources:
                 where = re.sub(r"^(Boundary|Body) .*", r"\1 NAME", place[1] + place[2].rstrip())
                 result.append(Message(kind, where, (place[3] or "").strip() + (place[4] or ""), tidy(text) + ending, noun))
             elif has_words(text) and not text.startswith("...; the file"):
-                if name == "reject" and not section and len(arguments) > 2:
+                if name in ("reject", "Objection") and not section and len(arguments) > 2:
                     section = SECTIONS.get(noun, "")
                 result.append(Message(kind, section, entry, tidy(text) + ending, noun))
         return result

@@ -4,13 +4,10 @@
 #include <hpvi/base/text.h>
 #include <hpvi/driver/primal_backend.h>
 #include <hpvi/driver/reduced_backend.h>
-#include <hpvi/reader/checks/checks.h>
-#include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace hpvi
 {
@@ -102,47 +99,6 @@ std::optional<PrimalPart<dim>> Backend<dim>::primal() const
   return std::nullopt;
 }
 
-namespace
-{
-/** Does the primal path offer what the scene asks for, the bound of the error included where a limit needs it? */
-bool fits_primal_path(const Scene<2> &scene)
-{
-  if (scene.has_unilateral_contact() || // solved by nodes or multipliers, as the scene says
-      scene.has_coulomb_friction() ||   // by Newton's method on the cones
-      (scene.adaptivity.tolerance > 0 && scene.adaptivity.tolerance_on == Indicator::bound))
-    return false;
-  try
-  {
-    check_primal_path(scene);
-  }
-  catch (const InputError &)
-  {
-    return false;
-  }
-  return true;
-}
-
-/**
- * Would the dense algebra of the first mesh take longer than what the primal path takes? Of one
- * core: `3e-10 s m^3` for m multipliers, and twelve times, for N unknowns,
- * `1e-6 s N + 3e-9 s N^3/2`. `./run space` measures all three, doc/space.md has the chart.
- */
-bool primal_path_pays(const Scene<2> &scene)
-{
-  const double p = scene.adaptivity.start_degree;
-  const std::array<unsigned int, 2> cells{{scene.geometry.n_cells(0), scene.geometry.n_cells(1)}};
-  const double unknowns = 2 * (1 + p * cells[0]) * (1 + p * cells[1]);
-  const std::vector<Side<2>> sides = sides_of(scene);
-  double multipliers = 0;
-  for (const auto &boundary : scene.boundaries)
-    if (boundary.has_contact() && boundary.friction)
-      multipliers += (p - 1) * (scene.geometry.has_mesh() ? sides[boundary.id].pieces.size()
-                                                          : cells[1 - sides[boundary.id].axis]);
-  return fits_primal_path(scene) &&
-         3e-10 * std::pow(multipliers, 3) > 12 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
-}
-} // namespace
-
 template <int dim>
 bool takes_primal_path(const Scene<dim> &scene, const unsigned int n)
 {
@@ -150,9 +106,6 @@ bool takes_primal_path(const Scene<dim> &scene, const unsigned int n)
     throw InputError(printable(scene.origin(), 400) +
                      ": Solver/Path = reduced: works on one process, and " + std::to_string(n) +
                      " were started; start one or set Path = primal");
-  if constexpr (dim == 2)
-    if (scene.solver.path == SolutionPath::automatic && primal_path_pays(scene))
-      return true;
   return dim == 3 || scene.solver.path == SolutionPath::primal || n > 1;
 }
 

@@ -54,24 +54,6 @@ void occupy_standard_streams()
     close(descriptor);
 }
 
-/** Several processes decide the path, and what follows it: Normal contact. scene.prm says both. */
-template <int dimension>
-Scene<dimension> read_scene(const CommandLine &command_line)
-{
-  const auto read = [&](const auto &overrides)
-  {
-    return read_scene<dimension>(command_line.scene_file, overrides,
-                                 command_line.inf_sup ? SceneUse::measure : SceneUse::solve);
-  };
-  Scene<dimension> scene = read(command_line.overrides);
-  if (n_started_processes() == 1 || command_line.inf_sup ||
-      scene.solver.path != SolutionPath::automatic)
-    return scene;
-  auto overrides = command_line.overrides;
-  overrides.emplace_back("Solver/Path", "primal");
-  return read(overrides);
-}
-
 void measure(const Scene<2> &scene)
 {
   print_inf_sup(scene);
@@ -130,7 +112,7 @@ std::unique_ptr<ResultDirectory> opened(const std::string &directory)
 template <int dimension>
 std::string report_of(const std::string &directory)
 {
-  const auto scene = hpvi::read_scene<dimension>(directory + "/scene.prm");
+  const auto scene = read_scene<dimension>(directory + "/scene.prm");
   try
   {
     return report(scene, directory, content_of(directory + "/summary.json"));
@@ -156,7 +138,13 @@ template <int dimension>
 void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
   std::optional<Scene<dimension>> read;
-  in_all_processes([&]() { read.emplace(read_scene<dimension>(command_line)); });
+  in_all_processes(
+      [&]()
+      {
+        read.emplace(read_scene<dimension>(
+            command_line.scene_file, command_line.overrides,
+            command_line.inf_sup ? SceneUse::measure : SceneUse::solve, n_started_processes()));
+      });
   const Scene<dimension> &scene = *read;
   const std::string directory = command_line.output_directory.empty()
                                     ? "output/" + scene.name

@@ -20,6 +20,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -248,6 +249,37 @@ void settle_normal_contact(Parameters &parameters, Scene<dim> &scene)
                  normal_contact_names[static_cast<unsigned int>(scene.solver.normal_contact)]);
 }
 
+/**
+ * Would the dense algebra of the first mesh take longer than what the primal path takes? Of one
+ * core: `3e-10 s m^3` for m multipliers, and twelve times, for N unknowns,
+ * `1e-6 s N + 3e-9 s N^3/2`. `./run space` measures all three, doc/space.md has the chart.
+ */
+bool primal_path_pays(const Scene<2> &scene)
+{
+  const double p = scene.adaptivity.start_degree;
+  const std::array<unsigned int, 2> cells{{scene.geometry.n_cells(0), scene.geometry.n_cells(1)}};
+  const double unknowns = 2 * (1 + p * cells[0]) * (1 + p * cells[1]);
+  const std::vector<Side<2>> sides = sides_of(scene);
+  double multipliers = 0;
+  for (const auto &boundary : scene.boundaries)
+    if (boundary.has_contact() && boundary.friction)
+      multipliers += (p - 1) * (scene.geometry.has_mesh() ? sides[boundary.id].pieces.size()
+                                                          : cells[1 - sides[boundary.id].axis]);
+  return 3e-10 * std::pow(multipliers, 3) > 12 * (1e-6 * unknowns + 3e-9 * std::pow(unknowns, 1.5));
+}
+
+/** What `auto` is for a scene that passed its check(): primal where that pays and offers all that is asked for, the bound too. */
+void settle_path(Scene<2> &scene)
+{
+  const Adaptivity &limits = scene.adaptivity;
+  if (scene.solver.path == SolutionPath::automatic &&
+      !scene.has_unilateral_contact() && // solved by nodes or multipliers, as the scene says
+      !scene.has_coulomb_friction() &&   // by Newton's method on the cones
+      !(limits.tolerance > 0 && limits.tolerance_on == Indicator::bound) &&
+      primal_path_pays(scene) && !objection_to_primal_path(scene) && scene.free_motions().empty())
+    scene.solver.path = SolutionPath::primal;
+}
+
 /** Of each material, its weight among them. */
 template <int dim>
 void read_body_force(const Parameters &parameters, const std::optional<double> t, Scene<dim> &scene)
@@ -369,12 +401,14 @@ UserNames names_in(const std::string &file,
 template <int dim>
 Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides,
-                      const SceneUse use)
+                      const SceneUse use, const unsigned int n_processes)
 {
   const UserNames names = names_in<dim>(file, overrides);
   const auto parameters = std::make_shared<Parameters>(
       scene_entries(dim, names), scene_aliases(dim, names.sides, names.interfaces), file);
   parameters->read(overrides);
+  if (n_processes > 1 && use == SceneUse::solve && parameters->text("Solver", "Path") == "auto")
+    parameters->assign(std::make_pair("Solver/Path", "primal")); // Normal contact follows
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",
                        "is not that of the program; set Dimension = " + std::to_string(dim));
@@ -398,6 +432,8 @@ Scene<dim> read_scene(const std::string &file,
   scene.loading = loading;
   scene.adaptivity.is_default_tolerance = is_default_tolerance;
   check(scene, use);
+  if constexpr (dim == 2)
+    settle_path(scene);
   return scene;
 }
 
@@ -425,7 +461,9 @@ std::string default_parameters()
 }
 
 template Scene<2> read_scene(const std::string &,
-                             const std::vector<std::pair<std::string, std::string>> &, SceneUse);
+                             const std::vector<std::pair<std::string, std::string>> &, SceneUse,
+                             unsigned int);
 template Scene<3> read_scene(const std::string &,
-                             const std::vector<std::pair<std::string, std::string>> &, SceneUse);
+                             const std::vector<std::pair<std::string, std::string>> &, SceneUse,
+                             unsigned int);
 } // namespace hpvi

@@ -126,6 +126,7 @@ Scene<dim> load_step(const Scene<dim> &scene, const unsigned int number, const D
 {
   Scene<dim> result = scene.loading.at(scene.loading.time(number));
   result.past_data = past;
+  result.solver.path = scene.solver.path; // settled for the whole history
   // A tenth of what counts as round-off of a solution: nothing that is seen is lost.
   const auto round_off = [](const double largest)
   { return std::max(0.1 * round_off_of_data * largest, smallest_magnitude); };

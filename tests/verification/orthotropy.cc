@@ -407,8 +407,8 @@ TEST(Orthotropy, NeverTakesThePrimalPath)
                            {"Boundary left/Displacement", "0; 0"},
                            {"Boundary bottom/Contact", "bilateral"},
                            {"Boundary bottom/Friction bound", "1"}};
-  EXPECT_TRUE(takes_primal_path(scene_of(large), 1));
-  EXPECT_FALSE(takes_primal_path(scene_of(large + fibres(3, 10)), 1));
+  EXPECT_EQ(scene_of(large).solver.path, SolutionPath::primal);
+  EXPECT_EQ(scene_of(large + fibres(3, 10)).solver.path, SolutionPath::automatic);
 }
 
 TEST(Orthotropy, ScenePrmIsTheSameScene)

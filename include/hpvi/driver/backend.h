@@ -188,7 +188,7 @@ protected:
   std::vector<MeshMarks> refined; ///< refinement_history()
 };
 
-/** Is it the primal path that solves @p scene on @p n processes? Throws InputError where none does. */
+/** Is it the primal path that solves @p scene, whose path is settled, on @p n processes? Throws InputError where none does. */
 template <int dim>
 bool takes_primal_path(const Scene<dim> &scene, unsigned int n);
 

@@ -16,12 +16,13 @@ inline constexpr const char *default_tolerance = "1e-3";
 
 /**
  * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.
+ * Solver/Path = auto is settled: the faster one in the plane, on @p n_processes the primal one, which scene.prm says then.
  * Throws InputError with one line (file, entry, value, remedy).
  */
 template <int dim>
 Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides = {},
-                      SceneUse use = SceneUse::solve);
+                      SceneUse use = SceneUse::solve, unsigned int n_processes = 1);
 
 /**
  * The space dimension that @p file or an override names: 3, or 2, also where that is not said or

@@ -117,9 +117,9 @@ enum class CoulombMethod
 /** Which discrete problem is solved; doc/space.md sets them beside each other. */
 enum class SolutionPath
 {
-  automatic, ///< the faster one, see takes_primal_path(); primal in space and on several processes
-  reduced,   ///< a quadratic program for the multipliers, its matrix dense
-  primal     ///< a convex minimum in displacements and moments, its matrices sparse
+  automatic, ///< primal in space, on several processes and where read_scene() finds it faster; else reduced
+  reduced, ///< a quadratic program for the multipliers, its matrix dense
+  primal   ///< a convex minimum in displacements and moments, its matrices sparse
 };
 
 /** What solves the linear systems of the primal path. */

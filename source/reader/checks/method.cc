@@ -181,68 +181,84 @@ void check_method(const Scene<dim> &scene, const SceneUse use)
 }
 
 template <int dim>
-void check_primal_path(const Scene<dim> &scene)
+std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
 {
   const std::string why = dim == 3 ? "space" : "the primal path";
   const Adaptivity &adaptivity = scene.adaptivity;
   if (adaptivity.method >= Method::pu)
-    reject(scene, "Adaptivity", "Method",
-           "varies the degree from cell to cell or with the steps, which " + why +
-               " does not offer; take hup2, hup3, hup4, hap2, hap3 or hap4",
-           method_names[static_cast<unsigned int>(adaptivity.method)]);
+    return Objection{"Adaptivity", "Method",
+                     "varies the degree from cell to cell or with the steps, which " + why +
+                         " does not offer; take hup2, hup3, hup4, hap2, hap3 or hap4",
+                     method_names[static_cast<unsigned int>(adaptivity.method)]};
   if (adaptivity.start_degree < 2 || adaptivity.start_degree > 8)
-    reject(scene, "Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
-           std::to_string(adaptivity.start_degree));
+    return Objection{"Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
+                     std::to_string(adaptivity.start_degree)};
   if (dim == 3 && scene.solver.linear == LinearMethod::multigrid && adaptivity.start_degree > 4)
-    reject(scene, "Solver", "Linear",
-           "is for degrees 2 to 4, and Start degree is " + std::to_string(adaptivity.start_degree) +
-               "; give automatic, amg or direct",
-           "multigrid");
+    return Objection{"Solver", "Linear",
+                     "is for degrees 2 to 4, and Start degree is " +
+                         std::to_string(adaptivity.start_degree) +
+                         "; give automatic, amg or direct",
+                     "multigrid"};
   for (const Material &material : scene.materials)
     if (material.orthotropy)
-      reject(scene, section_of_material(material.name), "Elasticity",
-             "is not offered by " + why +
-                 (dim == 3
-                      ? "; give Young's modulus and Poisson's ratio"
-                      : "; run the reduced path on one process, or give an isotropic material"),
-             "orthotropic");
+      return Objection{
+          section_of_material(material.name), "Elasticity",
+          "is not offered by " + why +
+              (dim == 3 ? "; give Young's modulus and Poisson's ratio"
+                        : "; run the reduced path on one process, or give an isotropic material"),
+          "orthotropic"};
   if (scene.is_axisymmetric())
-    reject(scene, "Material", "Plane",
-           "is not offered by " + why + "; run the reduced path on one process", "axisymmetric");
+    return Objection{"Material", "Plane",
+                     "is not offered by " + why + "; run the reduced path on one process",
+                     "axisymmetric"};
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.spring)
-      reject(scene, section_of(boundary), "Spring",
-             "is not offered by " + why + "; run the reduced path on one process, or remove it");
+      return Objection{section_of(boundary), "Spring",
+                       "is not offered by " + why +
+                           "; run the reduced path on one process, or remove it"};
   if (scene.has_initial_strain())
-    reject(scene, "Material", "Initial strain",
-           "or Thermal expansion is not offered by " + why +
-               "; run the reduced path on one process, or remove it");
+    return Objection{"Material", "Initial strain",
+                     "or Thermal expansion is not offered by " + why +
+                         "; run the reduced path on one process, or remove it"};
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.plate)
-      reject(scene, section_of(boundary), "Rigid",
-             "is not offered by " + why + "; run the reduced path on one process, or remove it",
-             "true");
+      return Objection{section_of(boundary), "Rigid",
+                       "is not offered by " + why +
+                           "; run the reduced path on one process, or remove it",
+                       "true"};
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.contact_direction)
-      reject(scene, section_of(boundary), "Contact direction",
-             "is not offered by " + why + "; run the reduced path on one process, or remove it");
+      return Objection{section_of(boundary), "Contact direction",
+                       "is not offered by " + why +
+                           "; run the reduced path on one process, or remove it"};
   if (scene.has_unilateral_contact() && scene.normal_contact() == NormalContact::nodes)
-    reject(scene, "Solver", "Normal contact",
-           "is not offered by " + why + ", whose pressures are multipliers; set multiplier",
-           "nodes");
+    return Objection{
+        "Solver", "Normal contact",
+        "is not offered by " + why + ", whose pressures are multipliers; set multiplier", "nodes"};
   if ((scene.has_friction() || scene.has_unilateral_contact()) &&
       scene.solver.multiplier_offset != -2)
-    reject(scene, "Solver", "Multiplier degree offset",
-           "is not offered by " + why + ", whose moments need -2; remove it");
+    return Objection{"Solver", "Multiplier degree offset",
+                     "is not offered by " + why + ", whose moments need -2; remove it"};
   if (scene.solver.condition_number)
-    reject(scene, "Solver", "Condition number",
-           "asks for a matrix S that " + why + " does not form; remove it");
+    return Objection{"Solver", "Condition number",
+                     "asks for a matrix S that " + why + " does not form; remove it"};
   if (scene.output.reference || !scene.reference_solution.empty())
-    reject(scene, scene.output.reference ? "Output" : "Error", "Reference solution",
-           "is not offered by " + why + "; remove it");
+    return Objection{scene.output.reference ? "Output" : "Error", "Reference solution",
+                     "is not offered by " + why + "; remove it"};
   if (scene.geometry.shape != Shape::box && !(dim == 3 && scene.geometry.has_mesh()))
-    reject(scene, "Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
-           name_of_shape<dim>(scene.geometry.shape));
+    return Objection{"Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
+                     name_of_shape<dim>(scene.geometry.shape)};
+  if (scene.exact_solution)
+    return Objection{"Exact solution", "Solution",
+                     "is not offered by " + why + "; set Path = reduced or remove it"};
+  return std::nullopt;
+}
+
+template <int dim>
+void check_primal_path(const Scene<dim> &scene)
+{
+  if (const auto found = objection_to_primal_path(scene))
+    reject(scene, found->section, found->name, found->problem_and_remedy, found->value);
   if constexpr (dim == 2)
     if (const auto motions = scene.free_motions(); !motions.empty())
       throw InputError(printable(scene.origin(), 400) +
@@ -252,13 +268,12 @@ void check_primal_path(const Scene<dim> &scene)
                        ", and bodies held by contact alone are not offered by the primal path; "
                        "prescribe a displacement component or bilateral contact that stops it, or "
                        "run the reduced path on one process");
-  if (scene.exact_solution)
-    reject(scene, "Exact solution", "Solution",
-           "is not offered by " + why + "; set Path = reduced or remove it");
 }
 
 template void check_method(const Scene<2> &, SceneUse);
 template void check_method(const Scene<3> &, SceneUse);
+template std::optional<Objection> objection_to_primal_path(const Scene<2> &);
+template std::optional<Objection> objection_to_primal_path(const Scene<3> &);
 template void check_primal_path(const Scene<2> &);
 template void check_primal_path(const Scene<3> &);
 } // namespace hpvi

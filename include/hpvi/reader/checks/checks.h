@@ -4,6 +4,9 @@
 
 #include <hpvi/scene/scene.h>
 
+#include <optional>
+#include <string>
+
 namespace hpvi
 {
 /** Throws InputError, one line with entry, value and remedy, for what no stage could make sense of: all that follows. */
@@ -60,6 +63,16 @@ void check_tolerance_column(const Scene<dim> &scene);
 /** Several bodies ask for nothing that is offered for one alone. */
 template <int dim>
 void check_bodies(const Scene<dim> &scene);
+
+/** An entry whose value is not on offer, as reject() takes it. */
+struct Objection
+{
+  std::string section, name, problem_and_remedy, value{};
+};
+
+/** The first entry of @p scene that the primal path does not offer, free motions aside. */
+template <int dim>
+std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene);
 
 /** @p scene asks for nothing that the primal path does not offer. */
 template <int dim>

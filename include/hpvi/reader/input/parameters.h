@@ -39,6 +39,9 @@ public:
   /** Take the assignments of the file, then @p overrides, pairs "Section/Entry", "value". */
   void read(const std::vector<std::pair<std::string, std::string>> &overrides);
 
+  /** Take one of them, as the last. */
+  void assign(const std::pair<std::string, std::string> &override);
+
   /** Give an entry its final value where the file leaves it to the program. */
   void set(const std::string &section, const std::string &name, const std::string &value);
 
@@ -79,7 +82,6 @@ private:
   void in_section(const std::string &section, const Action &action);
   /** Checks name and form. */
   void assign(const Assignment &assignment);
-  void assign(const std::pair<std::string, std::string> &override);
   /** Null for the opening line of a known subsection. Throws where the name is unknown. */
   const Entry *known_entry(const Assignment &assignment) const;
   const std::string &own(const std::string &section) const; ///< with_section()
