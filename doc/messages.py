@@ -39,7 +39,7 @@ PASSED_ON = {
 RETURNED = {"scene/orthotropy:flaw": ("Material NAME", "Poisson's ratios")}
 # What wrappers add to what they are given: where, and a literal that is there.
 ENDINGS = {**{f"driver/{noun}": "; go on with the scene of that run, or begin a new one"
-              for noun in ("adaptive_solver", "checkpoint", "load_history", "step_stages")}, "base/file_format": "; then what to make anew",
+              for noun in ("adaptive_solver", "checkpoint", "load_history")}, "base/file_format": "; then what to make anew",
            "results/stored_solution": "; make the reference solution anew from a scene of the same problem with the same coarse mesh",
            "output/": "; choose another one with --output", "program/sweep_run": "; choose another one with --output"}
 # Sections that a source is about where they are no literals.
@@ -53,7 +53,7 @@ SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary
 # What the refused input of other sources is about.
 SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/user_names"),
             "Expressions": ("input/expressions",), "Mesh files": ("gmsh/", "shapes/mesh_from_file"),
-            "Files of earlier runs": ("base/file_format", "driver/checkpoint", "driver/load_history", "driver/adaptive_solver", "driver/step_stages", "results/stored_solution", "output/tables"),
+            "Files of earlier runs": ("base/file_format", "driver/checkpoint", "driver/load_history", "driver/adaptive_solver", "results/stored_solution", "output/tables"),
             "The directory of results": ("output/",), "Scenes made by code": ("plane/mesh", "scene/scene", "driver/backend")}
 NUMBERS = {"to_string", "text", "labelled", "bytes_text", "size", "n", "degrees"}
 NAMES = {"name", "mention", "name_of", "listed", "what", "in_words", "words", "path", "printable", "checksum", "where", "section",

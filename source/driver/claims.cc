@@ -118,6 +118,7 @@ template <int dim>
 void withdraw_claims(StepReport<dim> &step, const std::string &why)
 {
   step.bound.reset();
+  step.no_bound = why;
   step.relative_bound = std::numeric_limits<double>::quiet_NaN();
   step.no_intervals = why;
   for (Resultant<dim> &row : step.forces)

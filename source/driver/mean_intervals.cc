@@ -4,12 +4,12 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/bound/dual_scene.h>
 #include <hpvi/bound/stress_work.h>
-#include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/driver/mean_intervals.h>
 #include <hpvi/plane/initial_stress.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hpvi
 {
@@ -97,7 +97,8 @@ bool is_away_from_lifts(const Probe<2> &probe, const StepReport<2> &step)
 } // namespace
 
 template <int dim>
-MeanIntervals<dim>::MeanIntervals(const Scene<dim> &scene) : scene(scene)
+MeanIntervals<dim>::MeanIntervals(const Scene<dim> &scene, Solve solve)
+    : scene(scene), solve(std::move(solve))
 {
 }
 
@@ -126,26 +127,24 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
     return result;
   try
   {
-    AdaptiveSolver<2>(*result.scene)
-        .run(
-            [&](const StepReport<2> &step)
+    solve(*result.scene,
+          [&](const StepReport<2> &step)
+          {
+            result.why = step.no_bound;
+            if (!step.bound)
+              return;
+            if (!sees_all(step.solution(), probe, component))
             {
-              result.why = step.no_bound;
-              if (!step.bound)
-                return;
-              if (!sees_all(step.solution(), probe, component))
-              {
-                result.why = "the disc is too small beside the body";
-                return;
-              }
-              result.z = std::make_shared<const Solution<2>>(step.solution());
-              // z_N is orthogonal to its error where it is in V.
-              result.norm = result.scene->has_pairs()
-                                ? step.energies.norm + step.bound->total
-                                : std::hypot(step.energies.norm, step.bound->total);
-              result.error = step.bound->total;
-            },
-            [](const Progress &) {});
+              result.why = "the disc is too small beside the body";
+              return;
+            }
+            result.z = std::make_shared<const Solution<2>>(step.solution());
+            // z_N is orthogonal to its error where it is in V.
+            result.norm = result.scene->has_pairs()
+                              ? step.energies.norm + step.bound->total
+                              : std::hypot(step.energies.norm, step.bound->total);
+            result.error = step.bound->total;
+          });
   }
   catch (const InputError &)
   {

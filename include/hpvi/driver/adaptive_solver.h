@@ -3,21 +3,25 @@
 #define hpvi_adaptive_solver_h
 
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/progress.h>
+#include <hpvi/driver/backend.h>
 #include <hpvi/driver/checkpoint.h>
+#include <hpvi/driver/mean_intervals.h>
 #include <hpvi/driver/step_report.h>
+#include <hpvi/scene/data_scale.h>
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace hpvi
 {
-template <int dim>
-struct StepStages;
-
 /**
  * SOLVE => ESTIMATE => MARK => REFINE (thesis, Section 4.3) for one scene, by the backend that
- * SolverSettings::path asks for. Owns the stages; prints nothing and writes no file: each finished step
+ * SolverSettings::path asks for, which has what belongs to a mesh. Prints nothing and writes no file: each finished step
  * goes to a callback. On several processes all functions are collective.
  */
 template <int dim>
@@ -47,7 +51,7 @@ public:
   AdaptiveSolver(const Scene<dim> &scene, const RunState<dim> &state,
                  MPI_Comm communicator = MPI_COMM_SELF);
 
-  ~AdaptiveSolver();
+  AdaptiveSolver(const AdaptiveSolver &) = delete; // stages are announced by this one
 
   /**
    * The beginning of run(), up to the last that the first step asks the functions of the scene for. Throws
@@ -75,7 +79,47 @@ public:
   std::optional<ReducedPart<dim>> reduced() const;
 
 private:
-  std::unique_ptr<StepStages<dim>> stages;
+  AdaptiveSolver(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend);
+
+  void set_callback(const Announce &listener);
+  void announce(Backend<dim> &of);
+  void run_steps(const std::function<void(const StepReport<dim> &)> &finished_step);
+  void solve();
+  void estimate_error();
+  bool has_late_bound() const;
+  BoundOfStep bound_of_step() const;
+  const BoundOfStep &known_bound() const;
+  Refinement mark() const;
+  PastStep<dim> past_step() const;
+  StepReport<dim> decide_and_report();
+  void solve_next_beside(const std::function<void()> &report);
+  StepReport<dim> report();
+  std::string end_of_run() const;
+  void add_results(StepReport<dim> &step);
+  void add_bound(StepReport<dim> &step);
+  void compare_claims(StepReport<dim> &step);
+  void conclude(StepReport<dim> &step);
+  void count(StepReport<dim> &step);
+  void refine();
+  void resume(const RunState<dim> &state);
+
+  const Scene<dim> &scene;
+  std::unique_ptr<Backend<dim>> backend;
+  std::unique_ptr<Backend<dim>> next; ///< for the next step, if that is solved
+  std::exception_ptr next_failure;    ///< of it, which must not keep this one from being told
+  bool is_solved = false;             ///< it was next
+  Announce on_stage;
+  const TrueError<dim> true_error;
+  MeanIntervals<dim> mean_intervals;
+  DataScale data;
+  ErrorEstimate estimate; ///< of the current step, as all that follows
+  EstimateNorms norms;
+  Energies energies;
+  std::optional<BoundOfStep> bound; ///< none: it may still be asked for
+  Refinement refinement;
+  History<dim> history;                     ///< of the steps that are solved
+  std::vector<MeshMarks> refinements;       ///< from the coarse mesh to that of the current step
+  mutable std::vector<std::string> entries; ///< of the scene, once a state() is asked for
 };
 } // namespace hpvi
 

@@ -6,6 +6,7 @@
 #include <hpvi/driver/step_report.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -27,8 +28,12 @@ template <int dim>
 class MeanIntervals
 {
 public:
-  /** The scene must outlive this. */
-  explicit MeanIntervals(const Scene<dim> &scene);
+  /** Solves a scene and hears of its steps. */
+  using Solve =
+      std::function<void(const Scene<2> &, const std::function<void(const StepReport<2> &)> &)>;
+
+  /** The scene must outlive this; @p solve finds z_N. */
+  MeanIntervals(const Scene<dim> &scene, Solve solve);
 
   /** Sets the intervals of those of @p step that have one, and adds why others have none to StepReport::no_intervals. */
   void set(StepReport<dim> &step);
@@ -49,6 +54,7 @@ private:
   Interval interval(const Measured &mean, const Dual &dual, const StepReport<dim> &step);
 
   const Scene<dim> &scene;
+  const Solve solve;
   std::map<std::array<unsigned int, 2>, Dual> duals;
   PartTables tables;
 };

@@ -30,7 +30,7 @@ struct StepReport
   const ErrorEstimate &estimate;   ///< of the cells of this process, for unit thickness
   EstimateNorms norms;             ///< of all cells
   std::optional<ErrorBound> bound; ///< none: not asked for, or not on offer
-  const std::string &no_bound;     ///< why there is none
+  std::string no_bound;            ///< why there is none
   double energy_high;              ///< BoundOfStep::energy_high [stress length^dim]
   double bound_imbalance; ///< ErrorBound::imbalance, also where that is why; NaN: not computed
   const std::optional<ReducedPart<dim>> reduced; ///< of the reduced path
