@@ -123,9 +123,36 @@ private:
 };
 } // namespace
 
-std::vector<Assignment> read_parameter_file(const std::string &file)
+std::string storable(std::string text)
 {
-  return file.empty() ? std::vector<Assignment>() : FileScanner(file).scan();
+  std::replace_if(
+      text.begin(), text.end(), [](const char c) { return c == '#' || c == '\n' || c == '\r'; },
+      '_');
+  if (!text.empty() && text.back() == '\\')
+    text.back() = '_';
+  return text;
+}
+
+ParameterFile::ParameterFile(const std::string &name,
+                             const std::vector<std::pair<std::string, std::string>> &overrides)
+    : name(name)
+{
+  if (!name.empty())
+    assignments = FileScanner(name).scan();
+  const std::string where = display_name(name) + " (--set)";
+  for (const auto &[path, text] : overrides)
+  {
+    const std::string value = Utilities::trim(text);
+    const std::size_t slash = path.rfind('/');
+    const bool top = slash == std::string::npos;
+    if (value != storable(value)) // it must survive a round trip through a parameter file
+      fail(where, path + " = " + value,
+           "holds a character that no parameter file can; remove '#', '\\' and line breaks");
+    const std::string entry = single_spaced(top ? path : path.substr(slash + 1));
+    if (entry.empty())
+      fail(where, path + " = " + value, "names no entry; write Section/Entry=value");
+    assignments.push_back({top ? "" : single_spaced(path.substr(0, slash)), entry, value, where});
+  }
 }
 
 namespace

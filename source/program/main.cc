@@ -110,9 +110,9 @@ std::unique_ptr<ResultDirectory> opened(const std::string &directory)
 }
 
 template <int dimension>
-std::string report_of(const std::string &directory)
+std::string report_of(const std::string &directory, const ParameterFile &file)
 {
-  const auto scene = read_scene<dimension>(directory + "/scene.prm");
+  const auto scene = read_scene<dimension>(file);
   try
   {
     return report(scene, directory, content_of(directory + "/summary.json"));
@@ -127,23 +127,24 @@ std::string report_of(const std::string &directory)
 void tell_of_run(const std::string &directory)
 {
   const std::unique_ptr<ResultDirectory> results = opened(directory);
-  const std::string page = scene_dimension(directory + "/scene.prm", {}) == 3
-                               ? report_of<3>(directory)
-                               : report_of<2>(directory);
+  const ParameterFile file(directory + "/scene.prm");
+  const std::string page =
+      (scene_dimension(file) == 3 ? report_of<3> : report_of<2>)(directory, file);
   write(*results, "report", directory, "report.html", page);
 }
 
 /** @p start_mpi is called where several processes may share the work, and nowhere else: it takes its time. */
 template <int dimension>
-void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
+void obey_scene(const CommandLine &command_line, const ParameterFile &file,
+                const std::function<void()> &start_mpi)
 {
   std::optional<Scene<dimension>> read;
   in_all_processes(
       [&]()
       {
-        read.emplace(read_scene<dimension>(
-            command_line.scene_file, command_line.overrides,
-            command_line.inf_sup ? SceneUse::measure : SceneUse::solve, n_started_processes()));
+        read.emplace(
+            read_scene<dimension>(file, command_line.inf_sup ? SceneUse::measure : SceneUse::solve,
+                                  n_started_processes()));
       });
   const Scene<dimension> &scene = *read;
   const std::string directory = command_line.output_directory.empty()
@@ -171,12 +172,15 @@ void obey_scene(const CommandLine &command_line, const std::function<void()> &st
   }
 }
 
-bool is_in_space(const CommandLine &command_line)
+void obey_scene(const CommandLine &command_line, const std::function<void()> &start_mpi)
 {
-  int dimension = 0;
-  in_all_processes(
-      [&]() { dimension = scene_dimension(command_line.scene_file, command_line.overrides); });
-  return dimension == 3;
+  std::optional<ParameterFile> file;
+  in_all_processes([&]() { file.emplace(command_line.scene_file, command_line.overrides); });
+  const bool is_in_space = scene_dimension(*file) == 3;
+  if (!command_line.sweeps.empty())
+    (is_in_space ? sweep<3> : sweep<2>)(command_line, start_mpi);
+  else
+    (is_in_space ? obey_scene<3> : obey_scene<2>)(command_line, *file, start_mpi);
 }
 
 void obey(const CommandLine &command_line, const std::function<void()> &start_mpi)
@@ -194,12 +198,8 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
         });
   else if (command_line.scene_file.empty())
     std::cout << default_parameters();
-  else if (!command_line.sweeps.empty())
-    (is_in_space(command_line) ? sweep<3> : sweep<2>)(command_line, start_mpi);
-  else if (is_in_space(command_line))
-    obey_scene<3>(command_line, start_mpi);
   else
-    obey_scene<2>(command_line, start_mpi);
+    obey_scene(command_line, start_mpi);
 }
 
 /**

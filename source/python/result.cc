@@ -95,9 +95,9 @@ private:
 
 /** On one thread: those of Python may have a scene each. */
 template <int dim>
-std::shared_ptr<const Scene<dim>> scene_of(const SceneText &text)
+std::shared_ptr<const Scene<dim>> scene_of(const ParameterFile &file)
 {
-  auto scene = std::make_shared<Scene<dim>>(read_scene<dim>(text.file, text.entries));
+  auto scene = std::make_shared<Scene<dim>>(read_scene<dim>(file));
   scene->solver.threads = 1;
   return scene;
 }
@@ -106,8 +106,8 @@ template <int dim>
 class RunOf : public Result
 {
 public:
-  explicit RunOf(const SceneText &text)
-      : scene_read(scene_of<dim>(text)), scene(*scene_read), needs_mpi(takes_primal_path(scene, 1))
+  explicit RunOf(const ParameterFile &file)
+      : scene_read(scene_of<dim>(file)), scene(*scene_read), needs_mpi(takes_primal_path(scene, 1))
   {
     length_unit = scene.length_unit;
     stress_unit = scene.stress_unit;
@@ -318,10 +318,10 @@ void write_step(const std::unique_ptr<Output<dim>> &output, const StepReport<dim
 }
 
 template <int dim>
-std::shared_ptr<Result> run(const SceneText &text, const std::string &directory,
+std::shared_ptr<Result> run(const ParameterFile &file, const std::string &directory,
                             const Listener &listener)
 {
-  const auto result = std::make_shared<RunOf<dim>>(text);
+  const auto result = std::make_shared<RunOf<dim>>(file);
   const MpiTurn turn(result->needs_mpi);
   if (result->needs_mpi)
     start_mpi();
@@ -373,9 +373,8 @@ std::shared_ptr<Result> run(const SceneText &text, const std::string &directory,
 std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directory,
                               const Listener &listener)
 {
-  if (scene_dimension(scene.file, scene.entries) == 3)
-    return run<3>(scene, directory, listener);
-  return run<2>(scene, directory, listener);
+  const ParameterFile file(scene.file, scene.entries);
+  return (scene_dimension(file) == 3 ? run<3> : run<2>)(file, directory, listener);
 }
 
 std::string exception_name(const std::exception &error)

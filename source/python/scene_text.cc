@@ -21,9 +21,10 @@ namespace
 template <class Ask>
 auto ask_scene(const SceneText &text, const Ask &ask)
 {
-  if (scene_dimension(text.file, text.entries) == 3)
-    return ask(read_scene<3>(text.file, text.entries));
-  return ask(read_scene<2>(text.file, text.entries));
+  const ParameterFile file(text.file, text.entries);
+  if (scene_dimension(file) == 3)
+    return ask(read_scene<3>(file));
+  return ask(read_scene<2>(file));
 }
 
 std::string picture_of(const Scene<2> &scene)

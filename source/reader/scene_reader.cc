@@ -369,20 +369,19 @@ namespace
 {
 /** Of the body first, for these say which others there may be. */
 template <int dim>
-UserNames names_in(const std::string &file,
-                   const std::vector<std::pair<std::string, std::string>> &overrides)
+UserNames names_in(const ParameterFile &file)
 {
-  const std::vector<std::string> bodies = body_names(file, overrides);
+  const std::vector<std::string> bodies = body_names(file.assignments);
   if (dim == 3 && !bodies.empty())
-    throw InputError(display_name(file) +
+    throw InputError(display_name(file.name) +
                      ": Dimension = 3: several bodies are offered in the plane alone; set 2, or "
                      "describe one body in the subsection Geometry");
   SideNames sides;
   if (bodies.empty())
-    sides = names_of_sides<dim>(file, overrides);
+    sides = names_of_sides<dim>(file);
   for (const std::string &body : bodies)
   {
-    const SideNames own = names_of_sides<dim>(file, overrides, "Body " + body);
+    const SideNames own = names_of_sides<dim>(file, "Body " + body);
     for (const std::string &side : own.sides)
       sides.sides.push_back(side.empty() ? "" : body + "." + side);
     for (const std::vector<std::string> &curves : {own.sides, own.interfaces})
@@ -390,7 +389,7 @@ UserNames names_in(const std::string &file,
         if (own.is_from_file && !curve.empty())
           sides.interfaces.push_back(body + "." + curve);
   }
-  UserNames names = user_names(file, overrides, sides.sides);
+  UserNames names = user_names(file.assignments, sides.sides);
   names.bodies = bodies;
   names.is_from_file = sides.is_from_file;
   names.interfaces = sides.interfaces;
@@ -399,16 +398,16 @@ UserNames names_in(const std::string &file,
 } // namespace
 
 template <int dim>
-Scene<dim> read_scene(const std::string &file,
-                      const std::vector<std::pair<std::string, std::string>> &overrides,
-                      const SceneUse use, const unsigned int n_processes)
+Scene<dim> read_scene(const ParameterFile &written, const SceneUse use,
+                      const unsigned int n_processes)
 {
-  const UserNames names = names_in<dim>(file, overrides);
+  const std::string &file = written.name;
+  const UserNames names = names_in<dim>(written);
   const auto parameters = std::make_shared<Parameters>(
       scene_entries(dim, names), scene_aliases(dim, names.sides, names.interfaces), file);
-  parameters->read(overrides);
+  parameters->read(written.assignments);
   if (n_processes > 1 && use == SceneUse::solve && parameters->text("Solver", "Path") == "auto")
-    parameters->assign(std::make_pair("Solver/Path", "primal")); // Normal contact follows
+    parameters->read({{"Solver", "Path", "primal", display_name(file) + " (--set)"}});
   if (parameters->text("", "Dimension") != std::to_string(dim))
     parameters->reject("", "Dimension",
                        "is not that of the program; set Dimension = " + std::to_string(dim));
@@ -437,16 +436,12 @@ Scene<dim> read_scene(const std::string &file,
   return scene;
 }
 
-int scene_dimension(const std::string &file,
-                    const std::vector<std::pair<std::string, std::string>> &overrides)
+int scene_dimension(const ParameterFile &file)
 {
   std::string dimension = "2";
-  for (const Assignment &assignment : read_parameter_file(file))
+  for (const Assignment &assignment : file.assignments)
     if (assignment.section.empty() && assignment.name == "Dimension")
       dimension = assignment.value;
-  for (const auto &[entry, value] : overrides)
-    if (single_spaced(entry) == "Dimension")
-      dimension = Utilities::trim(value);
   return dimension == "3" ? 3 : 2;
 }
 
@@ -460,10 +455,6 @@ std::string default_parameters()
   return Parameters(entries, {}, "").print(true);
 }
 
-template Scene<2> read_scene(const std::string &,
-                             const std::vector<std::pair<std::string, std::string>> &, SceneUse,
-                             unsigned int);
-template Scene<3> read_scene(const std::string &,
-                             const std::vector<std::pair<std::string, std::string>> &, SceneUse,
-                             unsigned int);
+template Scene<2> read_scene(const ParameterFile &, SceneUse, unsigned int);
+template Scene<3> read_scene(const ParameterFile &, SceneUse, unsigned int);
 } // namespace hpvi

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/display_name.h>
-#include <hpvi/base/parameter_file.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/user_names.h>
 
@@ -48,27 +46,9 @@ void add(std::vector<std::string> &names, const Found &found, const std::string 
 }
 } // namespace
 
-namespace
-{
-std::vector<Assignment>
-all_assignments(const std::string &file,
-                const std::vector<std::pair<std::string, std::string>> &overrides)
-{
-  std::vector<Assignment> all = read_parameter_file(file);
-  for (const auto &[path, value] : overrides)
-    if (const std::size_t slash = path.rfind('/'); slash != std::string::npos)
-      all.push_back({single_spaced(path.substr(0, slash)), single_spaced(path.substr(slash + 1)),
-                     value, display_name(file) + " (--set)"});
-  return all;
-}
-} // namespace
-
-std::vector<std::string>
-body_names(const std::string &file,
-           const std::vector<std::pair<std::string, std::string>> &overrides)
+std::vector<std::string> body_names(const std::vector<Assignment> &all)
 {
   std::vector<std::string> result;
-  const std::vector<Assignment> all = all_assignments(file, overrides);
   for (const Assignment &one : all)
     if (begins_with(one.section, body) && one.section != "Body force")
     {
@@ -95,11 +75,8 @@ body_names(const std::string &file,
   return result;
 }
 
-UserNames user_names(const std::string &file,
-                     const std::vector<std::pair<std::string, std::string>> &overrides,
-                     const std::vector<std::string> &sides)
+UserNames user_names(const std::vector<Assignment> &all, const std::vector<std::string> &sides)
 {
-  const std::vector<Assignment> all = all_assignments(file, overrides);
   UserNames result;
   result.sides = sides;
   std::vector<std::string> known = sides;

@@ -105,7 +105,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std:
   write("body.msh", mesh == std::string::npos ? "" : bytes.substr(mesh));
   try
   {
-    if (scene_dimension(scene, {}) == 3)
+    if (scene_dimension(ParameterFile(scene)) == 3)
       read_twice<3>(scene);
     else
       read_twice<2>(scene);

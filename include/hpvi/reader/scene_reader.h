@@ -15,21 +15,27 @@ namespace hpvi
 inline constexpr const char *default_tolerance = "1e-3";
 
 /**
- * Read and check @p file; @p overrides are pairs "Section/Entry", "value" from the command line.
- * Solver/Path = auto is settled: the faster one in the plane, on @p n_processes the primal one, which scene.prm says then.
- * Throws InputError with one line (file, entry, value, remedy).
+ * Read and check a scene. Solver/Path = auto is settled: the faster one in the plane, on several processes the primal one,
+ * which scene.prm says then. Throws InputError with one line (file, entry, value, remedy).
  */
+template <int dim>
+Scene<dim> read_scene(const ParameterFile &file, SceneUse use = SceneUse::solve,
+                      unsigned int n_processes = 1);
+
+/** The same with @p overrides, pairs "Section/Entry", value. */
 template <int dim>
 Scene<dim> read_scene(const std::string &file,
                       const std::vector<std::pair<std::string, std::string>> &overrides = {},
-                      SceneUse use = SceneUse::solve, unsigned int n_processes = 1);
+                      const SceneUse use = SceneUse::solve)
+{
+  return read_scene<dim>(ParameterFile(file, overrides), use);
+}
 
 /**
- * The space dimension that @p file or an override names: 3, or 2, also where that is not said or
+ * The space dimension that @p file names: 3, or 2, also where that is not said or
  * wrong, which read_scene() finds.
  */
-int scene_dimension(const std::string &file,
-                    const std::vector<std::pair<std::string, std::string>> &overrides);
+int scene_dimension(const ParameterFile &file);
 
 /** The text of scene.prm, every entry with its value; empty for a scene that was built by code. */
 template <int dim>

@@ -2,8 +2,9 @@
 #ifndef hpvi_user_names_h
 #define hpvi_user_names_h
 
+#include <hpvi/base/parameter_file.h>
+
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace hpvi
@@ -22,18 +23,14 @@ struct UserNames
   std::vector<std::string> probes = {};     ///< `Probe NAME`
 };
 
-/** The bodies that @p file and @p overrides open; of one body none. Throws as user_names(). */
-std::vector<std::string>
-body_names(const std::string &file,
-           const std::vector<std::pair<std::string, std::string>> &overrides);
+/** The bodies that @p all open; of one body none. Throws as user_names(). */
+std::vector<std::string> body_names(const std::vector<Assignment> &all);
 
 /**
- * What @p file and @p overrides, pairs "Section/Entry" and value, open. Throws InputError for names of other
+ * What @p all open. Throws InputError for names of other
  * than letters, digits, '_', '-' and blanks, and for two that differ in case alone.
  */
-UserNames user_names(const std::string &file,
-                     const std::vector<std::pair<std::string, std::string>> &overrides,
-                     const std::vector<std::string> &sides);
+UserNames user_names(const std::vector<Assignment> &all, const std::vector<std::string> &sides);
 } // namespace hpvi
 
 #endif

@@ -70,16 +70,6 @@ std::shared_ptr<const Patterns::PatternBase> word_or(const std::string &word,
   return std::make_shared<WordOr>(word, other);
 }
 
-std::string storable(std::string text)
-{
-  std::replace_if(
-      text.begin(), text.end(), [](const char c) { return c == '#' || c == '\n' || c == '\r'; },
-      '_');
-  if (!text.empty() && text.back() == '\\')
-    text.back() = '_';
-  return text;
-}
-
 template <typename Action>
 void Parameters::in_section(const std::string &section, const Action &action)
 {
@@ -103,12 +93,10 @@ Parameters::Parameters(std::vector<Entry> all_entries, std::vector<Alias> all_al
                });
 }
 
-void Parameters::read(const std::vector<std::pair<std::string, std::string>> &overrides)
+void Parameters::read(const std::vector<Assignment> &assignments)
 {
-  for (const Assignment &assignment : read_parameter_file(file))
+  for (const Assignment &assignment : assignments)
     assign(assignment);
-  for (const auto &override : overrides)
-    assign(override);
 }
 
 void Parameters::assign(const Assignment &assignment)
@@ -123,21 +111,6 @@ void Parameters::assign(const Assignment &assignment)
     fail(assignment.where, entry->path() + " = " + value, objection);
   origins[entry->path()] = assignment.where;
   set(entry->section, entry->name, value);
-}
-
-void Parameters::assign(const std::pair<std::string, std::string> &override)
-{
-  const std::string where = shown + " (--set)";
-  const std::string value = Utilities::trim(override.second);
-  const std::size_t slash = override.first.rfind('/');
-  const bool top = slash == std::string::npos;
-  if (value != storable(value)) // it must survive a round trip through a parameter file
-    fail(where, override.first + " = " + value,
-         "holds a character that no parameter file can; remove '#', '\\' and line breaks");
-  const std::string name = single_spaced(top ? override.first : override.first.substr(slash + 1));
-  if (name.empty())
-    fail(where, override.first + " = " + value, "names no entry; write Section/Entry=value");
-  assign(Assignment{top ? "" : single_spaced(override.first.substr(0, slash)), name, value, where});
 }
 
 void Parameters::set(const std::string &section, const std::string &name, const std::string &value)

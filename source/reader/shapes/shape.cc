@@ -225,25 +225,20 @@ Corners<3> corners_around(const HexahedralMesh &mesh)
 } // namespace
 
 template <int dim>
-SideNames names_of_sides(const std::string &file,
-                         const std::vector<std::pair<std::string, std::string>> &overrides,
-                         const std::string &section)
+SideNames names_of_sides(const ParameterFile &file, const std::string &section)
 {
   std::map<std::string, std::string> values;
   for (const Entry &entry : geometry_entries<dim>())
     values[entry.name] = entry.default_value;
   std::vector<std::string> opened; // sections of boundaries
   const std::string boundary = "Boundary ";
-  for (const Assignment &one : read_parameter_file(file))
+  for (const Assignment &one : file.assignments)
     if (one.section == section)
       values[one.name] = one.value;
     else if (one.section.rfind(boundary, 0) == 0 && one.name != "On")
       opened.push_back(one.section.substr(boundary.size()));
   std::sort(opened.begin(), opened.end());
   opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
-  for (const auto &[path, value] : overrides)
-    if (const std::string entry = single_spaced(path); entry.rfind(section + "/", 0) == 0)
-      values[single_spaced(entry.substr(section.size() + 1))] = Utilities::trim(value);
   if (const std::string prefix = section.substr(section.find(' ') + 1) + "."; section != "Geometry")
   {
     // Of one of several bodies, without its name.
@@ -262,11 +257,11 @@ SideNames names_of_sides(const std::string &file,
   {
     return kind->boundaries(
         [&](const std::string &entry)
-        { return entry == "File" ? beside(file, values[entry]) : values[entry]; });
+        { return entry == "File" ? beside(file.name, values[entry]) : values[entry]; });
   }
   catch (const InputError &error) // of a mesh, whose file it names
   {
-    throw InputError(display_name(file) + ": " + section + "/File: " + error.what());
+    throw InputError(display_name(file.name) + ": " + section + "/File: " + error.what());
   }
 }
 
@@ -328,12 +323,8 @@ template Entry lower_corner_entry<2>();
 template Entry lower_corner_entry<3>();
 template Entry upper_corner_entry<2>();
 template Entry upper_corner_entry<3>();
-template SideNames names_of_sides<2>(const std::string &,
-                                     const std::vector<std::pair<std::string, std::string>> &,
-                                     const std::string &);
-template SideNames names_of_sides<3>(const std::string &,
-                                     const std::vector<std::pair<std::string, std::string>> &,
-                                     const std::string &);
+template SideNames names_of_sides<2>(const ParameterFile &, const std::string &);
+template SideNames names_of_sides<3>(const ParameterFile &, const std::string &);
 template std::vector<Entry> geometry_entries<2>();
 template std::vector<Entry> geometry_entries<3>();
 template Geometry<2> read_geometry(const Parameters &);

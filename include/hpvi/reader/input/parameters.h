@@ -23,9 +23,6 @@ std::shared_ptr<const dealii::Patterns::PatternBase> one_of(const std::vector<st
 std::shared_ptr<const dealii::Patterns::PatternBase>
 word_or(const std::string &word, const dealii::Patterns::PatternBase &other);
 
-/** @p text without what no parameter file can hold: '#', line breaks, a backslash at the end. */
-std::string storable(std::string text);
-
 /**
  * The values of all entries, and where each was set: deal.II's ParameterHandler with error messages
  * of one line that name file, line, entry, value and remedy.
@@ -36,11 +33,8 @@ public:
   /** All entries have their defaults. @p aliases and @p file are for messages. */
   Parameters(std::vector<Entry> entries, std::vector<Alias> aliases, const std::string &file);
 
-  /** Take the assignments of the file, then @p overrides, pairs "Section/Entry", "value". */
-  void read(const std::vector<std::pair<std::string, std::string>> &overrides);
-
-  /** Take one of them, as the last. */
-  void assign(const std::pair<std::string, std::string> &override);
+  /** Take them in turn. */
+  void read(const std::vector<Assignment> &assignments);
 
   /** Give an entry its final value where the file leaves it to the program. */
   void set(const std::string &section, const std::string &name, const std::string &value);

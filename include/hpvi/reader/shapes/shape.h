@@ -91,14 +91,9 @@ Entry upper_corner_entry();
 template <int dim>
 std::vector<Entry> geometry_entries();
 
-/**
- * Those of the body that @p section of @p file describes: of its entries and @p overrides, pairs "Section/Entry", "value",
- * only those that say so are looked at.
- */
+/** Those of the body that @p section of @p file describes, of which only what says so is looked at. */
 template <int dim>
-SideNames names_of_sides(const std::string &file,
-                         const std::vector<std::pair<std::string, std::string>> &overrides,
-                         const std::string &section = "Geometry");
+SideNames names_of_sides(const ParameterFile &file, const std::string &section = "Geometry");
 
 /** What it says, but for the levels of grading, which are a number as others. */
 template <int dim>
