@@ -3,6 +3,7 @@
 #define hpvi_dense_algebra_h
 
 #include <deal.II/base/types.h>
+#include <deal.II/lac/lapack_support.h>
 #include <deal.II/lac/vector.h>
 
 #include <vector>
