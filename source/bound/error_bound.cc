@@ -87,41 +87,45 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
 
 // @sect3{In the energy norm}
 //
-// Two proofs, two numbers, of which the smaller one is taken. With $O$ for the oscillation of loads
-// and $b \ge |d - w|_a$ the first is $O + (\eta^2 + 2\,\mathrm{gap} + (b + O)^2)^{1/2}$, the smaller one
-// where $w$ counts. The second, $(A + b)/2 + ((A + b)^2/4 + \mathrm{gap} + A b)^{1/2}$ with
-// $A^2 = \sum_K (\eta_K + O_K)^2$, counts oscillation and gap once.
+// For each $\lambda$ in $(0, 1]$ the error e satisfies $|e|^2 \le A^2 + 2\lambda\,\mathrm{gap} +
+// ((1 - \lambda)|e| + \lambda b)^2$ with $A^2 = \sum_K (\eta_K + O_K)^2$, and so it is below the larger root.
+// $\lambda = 1$ gives $(A^2 + 2\,\mathrm{gap} + b^2)^{1/2}$, the least where $w$ counts.
 void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                const ContactCorrection<2> &correction, const DataError &data)
 {
-  const double eta_square = sum(stress.squares), w = norm(correction),
-               gap = std::max(0., sum(correction.gap())); // round-off
-  result.stress = std::sqrt(eta_square);
+  const double w = norm(correction), gap = std::max(0., sum(correction.gap())); // round-off
+  result.stress = std::sqrt(sum(stress.squares));
   result.slip = std::sqrt(2 * gap + w * w);
   result.oscillation =
       std::sqrt(std::inner_product(data.oscillation.begin(), data.oscillation.end(),
                                    data.oscillation.begin(), 0.)) +
       data.unresolved;
   result.data = data.lift;
-  const double b = distance_from_admissible(correction, data);
-  const double A = stress_and_oscillation(stress, data);
-  result.total = std::min(result.oscillation +
-                              std::sqrt(eta_square + 2 * gap + std::pow(b + result.oscillation, 2)),
-                          (A + b) / 2 + std::sqrt(std::pow(A + b, 2) / 4 + gap + A * b));
+  const double b = distance_from_admissible(correction, data),
+               A = stress_and_oscillation(stress, data);
+  const auto root = [&](const double lambda)
+  {
+    const double nu = 1 - lambda, half = nu * lambda * b, rest = 1 - nu * nu;
+    return (half + std::sqrt(half * half +
+                             rest * (A * A + 2 * lambda * gap + lambda * lambda * b * b))) /
+           rest;
+  };
+  result.total =
+      std::min(root(1.), boost::math::tools::brent_find_minima(root, 1e-3, 1., 20).second);
 }
 
 /** Of the stress between sigma(u_N) and s that is nearest to that of the solution; doc/bound.md has the proof. */
 void set_radius(ErrorBound &result, const EquilibratedStress &stress,
                 const ContactCorrection<2> &correction, const DataError &data)
 {
-  const double eta_square = sum(stress.squares), gap = std::max(0., sum(correction.gap())),
-               b = distance_from_admissible(correction, data), O = result.oscillation;
+  const double A = stress_and_oscillation(stress, data),
+               gap = std::max(0., sum(correction.gap())),
+               b = distance_from_admissible(correction, data);
   const auto radius = [&](const double theta)
   {
     const double rest = 1 - theta;
-    return std::sqrt(rest * (rest * eta_square + 2 * gap + rest / (1 - 2 * theta) * b * b +
-                             2 * O * (result.total + b))) +
-           theta * O;
+    return std::sqrt(rest * (rest * A * A + 2 * gap + rest / (1 - 2 * theta) * b * b)) +
+           theta * result.oscillation;
   };
   const auto [theta, least] = boost::math::tools::brent_find_minima(radius, 0., 0.499, 20);
   if (least < result.total)

@@ -17,11 +17,11 @@ namespace hpvi
  * stress s in equilibrium, friction -g lam*, |lam*| <= 1, along the contact, and a pressure pi >= 0 where that
  * is unilateral,
  *
- *     |u - u_N|_a <= min{O + (eta^2 + 2 gap + (b + O)^2)^{1/2}, (A + b)/2 + ((A + b)^2/4 + gap + A b)^{1/2}},
+ *     |u - u_N|_a <= min over lambda in (0, 1] of the root E of E^2 = A^2 + 2 lambda gap + ((1 - lambda) E + lambda b)^2,
  *     gap = gap(u_N - w),   b^2 = sum_K (|w|_K + |d|_K)^2,   A^2 = sum_K (eta_K + O_K)^2,
  *     eta = |s - sigma(u_N)| in energy,   gap(v) = int g (|v_t| - lam* v_t) + int pi (u_0 - v_n),
  *
- * w from ContactCorrection, O and d from DataError; without the last two `eta^2 + 2 gap + |w|_a^2`. The energy
+ * w from ContactCorrection, O and d from DataError; with lambda = 1 `A^2 + 2 gap + b^2`. The energy
  * of an admissible displacement, U = u_N + d, or u_N - w + d where contact is unilateral, is above the least
  * one by at most
  *
@@ -55,7 +55,7 @@ struct ErrorBound
    * Between sigma(u_N) and s lies m = sigma(u_N) + theta (s - sigma(u_N)), which for some theta in [0, 1/2) is nearer to
    * sigma(u) than either: |sigma(u) - m| <= R,
    *
-   *     R^2 = (1 - theta) [(1 - theta) eta^2 + 2 gap + (1 - theta)/(1 - 2 theta) b^2 + 2 O (total + b)].
+   *     R^2 = (1 - theta) [(1 - theta) A^2 + 2 gap + (1 - theta)/(1 - 2 theta) b^2].
    *
    * Where R + theta O is least; s is in equilibrium but for O.
    */
