@@ -72,13 +72,30 @@ LoadRule<1> BoundaryTractions::rule(const StressEdge &edge, const Datum datum) c
                               : rules.spring(cell, side.face, degree);
 }
 
+Point<2> BoundaryTractions::point(const StressEdge &edge, const double s) const
+{
+  const StressEdge::Side &side = edge.sides[0];
+  const auto &cell = patches.cells()[side.cell].iterator;
+  const auto face = cell->face(side.face);
+  return edge.is_curved ? map_of<2>(cell).point(point_on_face<2>(side.face, Point<1>(s)))
+                        : face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
+}
+
+/** |x'|/length. */
+double BoundaryTractions::stretch(const StressEdge &edge, const double s) const
+{
+  const StressEdge::Side &side = edge.sides[0];
+  return edge.is_curved
+             ? map_of<2>(patches.cells()[side.cell].iterator)
+                       .face_measure(side.face, point_on_face<2>(side.face, Point<1>(s))) /
+                   edge.length
+             : 1.;
+}
+
 Tensor<1, 2> BoundaryTractions::load_on(const StressEdge &edge, const double s) const
 {
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-  const StressEdge::Side &side = edge.sides[0];
-  const auto face = patches.cells()[side.cell].iterator->face(side.face);
-  const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
-  return outward(edge) * load_at<2>(condition.traction, x);
+  return outward(edge) * stretch(edge, s) * load_at<2>(condition.traction, point(edge, s));
 }
 
 /** What springs exert on the displacement that the stress is made of. */
@@ -86,18 +103,18 @@ Tensor<1, 2> BoundaryTractions::spring_on(const StressEdge &edge, const double s
 {
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
   const StressEdge::Side &side = edge.sides[0];
-  const auto &cell = patches.cells()[side.cell].iterator;
-  const auto face = cell->face(side.face);
-  const Point<2> x = face->vertex(0) + s * (face->vertex(1) - face->vertex(0));
+  const CellMap<2> map = map_of<2>(patches.cells()[side.cell].iterator);
+  const Point<2> on_face = point_on_face<2>(side.face, Point<1>(s));
   const unsigned int p = solution.displacement_space.degrees()[side.cell];
   const auto dofs = solution.displacement_space.cell_dofs(side.cell);
   const LocalNumbering &numbering = solution.tables.numbering(p);
   std::vector<double> nodal(dofs.size());
   for (unsigned int i = 0; i < dofs.size(); ++i)
     nodal[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] = solution.u[dofs[i]];
-  const std::vector<double> u = evaluate(
-      tabulate<2>(p, {point_on_face<2>(side.face, Point<1>(s))}, {1.}, false).values, nodal);
-  return -outward(edge) * (condition.spring.stiffness(x, edge.normal) * Tensor<1, 2>({u[0], u[1]}));
+  const std::vector<double> u = evaluate(tabulate<2>(p, {on_face}, {1.}, false).values, nodal);
+  return -outward(edge) * stretch(edge, s) *
+         (condition.spring.stiffness(map.point(on_face), map.normal(side.face, on_face)) *
+          Tensor<1, 2>({u[0], u[1]}));
 }
 
 /** `-g l t` with the polynomial l of one end. */
@@ -153,7 +170,8 @@ void BoundaryTractions::set(const unsigned int index)
       for (unsigned int i = 0; i < t.size(); ++i)
         halves[index][end][0][i] -= t[i];
     }
-    meet_ends(edge, end, value(index, end));
+    if (!edge.is_curved)
+      meet_ends(edge, end, value(index, end));
   }
 }
 
@@ -177,6 +195,24 @@ Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) 
   const double l = (1 - s) * at(friction[0]) + s * at(friction[1]);
   return result - outward(edge) * face.friction_bound(face.point(s)) * l * face.frame(s).tangent -
          (at(pressure[0]) + at(pressure[1])) * edge.normal;
+}
+
+double BoundaryTractions::work_of_loads(const unsigned int index,
+                                        const std::function<Tensor<1, 2>(double)> &v) const
+{
+  const StressEdge &edge = patches.edges()[index];
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  double sum = 0;
+  const auto add = [&](const Quadrature<1> &rule, const auto &load)
+  {
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      sum += rule.weight(q) * (load(rule.point(q)[0]) * v(rule.point(q)[0]));
+  };
+  if (condition.has_traction())
+    add(rule(edge, Datum::load).quadrature, [&](const double s) { return load_on(edge, s); });
+  if (condition.spring)
+    add(rule(edge, Datum::spring).quadrature, [&](const double s) { return spring_on(edge, s); });
+  return outward(edge) * edge.length * sum;
 }
 
 std::vector<std::pair<double, double>> BoundaryTractions::points(const unsigned int index) const

@@ -2,6 +2,7 @@
 #include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/admissible_pressure.h>
+#include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/displacement_lift.h>
 #include <hpvi/plane/initial_stress.h>
@@ -18,76 +19,15 @@ using namespace dealii;
 
 namespace
 {
-/** The constants of a convex cell. */
-class CellConstants
-{
-public:
-  explicit CellConstants(const CellMap<2> &map) : map(map), v(map.vertices())
-  {
-    for (unsigned int i = 0; i < 4; ++i)
-      for (unsigned int j = 0; j < i; ++j)
-        diameter = std::max(diameter, v[i].distance(v[j]));
-  }
-
-  double poincare() const
-  {
-    return diameter / numbers::PI;
-  }
-
-  /** C with `|grad v| <= C |eps(v)|` for some rotation of v: `2^{1/2}/beta`. */
-  double korn() const
-  {
-    const Point<2> centre = map.point({0.5, 0.5});
-    double inner = diameter, outer = 0;
-    for (unsigned int face = 0; face < 4; ++face)
-      inner = std::min(inner, distance(centre, face));
-    for (const Point<2> &vertex : v)
-      outer = std::max(outer, centre.distance(vertex));
-    const double ratio = inner / outer;
-    return 2 / ratio * std::sqrt(1 + std::sqrt(std::max(0., 1 - ratio * ratio)));
-  }
-
-  /** C with `|v|_E <= C |grad v|_K` for v of mean zero. */
-  double trace(const unsigned int face) const
-  {
-    const unsigned int a = start(face), step = face < 2 ? 1 : 2;
-    if (map.is_affine())
-    {
-      const double across = v[0].distance(v[step]);
-      return std::sqrt((poincare() + 2 * across) * poincare() / distance(v[start(face ^ 1)], face));
-    }
-    const Point<2> apex = point_on_face<2>(face ^ 1, Point<1>(0.5)), P = map.point(apex);
-    const double reach = std::max(P.distance(v[a]), P.distance(v[a + 3 - step]));
-    return std::sqrt(2 * (poincare() + reach) * poincare() / distance(P, face));
-  }
-
-private:
-  static unsigned int start(const unsigned int face) ///< first vertex
-  {
-    return face < 2 ? face : 2 * (face - 2);
-  }
-
-  double distance(const Point<2> &x, const unsigned int face) const ///< from the line of a face
-  {
-    const Point<2> &a = v[start(face)], &b = v[start(face) + (face < 2 ? 2 : 1)];
-    return std::abs((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0])) / a.distance(b);
-  }
-
-  const CellMap<2> map;
-  const CellMap<2>::Vertices v;
-  double diameter = 0;
-};
-
 /** |G - Pi G| on an edge, in the components that are prescribed. */
 double missed_traction(const EquilibratedStress &stress, const unsigned int index)
 {
   const StressEdge &edge = stress.patches().edges()[index];
   double sum = 0;
-  const auto &cell = stress.patches().cells()[edge.sides[0].cell].iterator;
-  const double length = cell->face(edge.sides[0].face)->diameter();
   for (const auto &[s, weight] : stress.prescribed().points(index))
   {
     const Tensor<1, 2> exact = stress.prescribed().value(index, s);
+    const double length = edge.length / stress.prescribed().stretch(edge, s);
     for (unsigned int c = 0; c < 2; ++c)
       if (!edge.components[c].is_unknown)
       {
@@ -347,6 +287,8 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     oscillation[cell] *=
         shape.korn() / std::sqrt(solution.scene.material_of(iterator).coercivity(2));
   }
+  for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
+    oscillation[cell] += stress.antisymmetry[cell];
   if (solution.scene.has_initial_strain())
     add_initial_strain(solution, stress);
   lift = std::sqrt(lift);

@@ -78,12 +78,12 @@ std::vector<PatchEdge> edges_of(const Hats &hats, const VertexPatches &vertex_pa
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
                                        const Parts &pressure, EquilibrationCache &cache,
                                        const Solution<2> *const measured, const Volume volume)
-    : squares(solution.displacement_space.degrees().size()), cache(cache),
-      vertex_patches(solution, has_distorted_cells(solution)),
+    : squares(solution.displacement_space.degrees().size()), antisymmetry(squares.size()),
+      cache(cache), vertex_patches(solution, has_distorted_cells(solution)),
       boundary(solution, vertex_patches, friction, pressure)
 {
-  if (vertex_patches.has_macro_cells)
-    macro_stresses = std::make_unique<const MacroStresses>(solution, vertex_patches, cache);
+  if (vertex_patches.has_rows)
+    row_stresses = std::make_unique<const RowStresses>(solution, vertex_patches, boundary, cache);
   else
     plain_stresses = std::make_unique<ParallelogramStresses>(
         solution, vertex_patches, boundary.marked_corners(), volume, cache);
@@ -120,7 +120,7 @@ const LegendreTables &EquilibratedStress::legendre_tables() const
 
 double EquilibratedStress::missed_force(const unsigned int cell) const
 {
-  return macro_stresses ? macro_stresses->missed_force(cell) : plain_stresses->missed_force(cell);
+  return row_stresses ? row_stresses->missed_force(cell) : plain_stresses->missed_force(cell);
 }
 
 double EquilibratedStress::missed_initial_stress(const unsigned int cell) const
@@ -143,8 +143,7 @@ double EquilibratedStress::initial_stress_error(const Solution<2> &solution,
 
 PatchCell EquilibratedStress::patch_cell(const unsigned int cell, const unsigned int hat) const
 {
-  return macro_stresses ? macro_stresses->patch_cell(cell, hat)
-                        : plain_stresses->patch_cell(cell, hat);
+  return row_stresses ? row_stresses->patch_cell(cell, hat) : plain_stresses->patch_cell(cell, hat);
 }
 
 /** By patches, or all at once where cells are so long that hat functions would cost too much. */
@@ -276,7 +275,7 @@ std::vector<double> EquilibratedStress::data_of(const unsigned int cell) const
   return result;
 }
 
-std::vector<double> EquilibratedStress::macro_tractions(const unsigned int cell) const
+std::vector<double> EquilibratedStress::row_tractions(const unsigned int cell) const
 {
   std::vector<double> result(patch_cell(cell, 0).element.n_edges());
   add_tractions(cell, result.data());
@@ -290,26 +289,31 @@ void EquilibratedStress::measure()
   else
     parallel_for_each(squares.size(), 8,
                       [&](const unsigned int cell)
-                      { squares[cell] = macro_stresses->square(cell, macro_tractions(cell)); });
+                      {
+                        const auto [square, antisymmetric] =
+                            row_stresses->distance(cell, row_tractions(cell));
+                        squares[cell] = square;
+                        antisymmetry[cell] = antisymmetric;
+                      });
 }
 
 void EquilibratedStress::measure_from(const Solution<2> &other)
 {
-  if (macro_stresses)
-    macro_stresses = std::make_unique<const MacroStresses>(other, vertex_patches, cache);
+  if (row_stresses)
+    row_stresses = std::make_unique<const RowStresses>(other, vertex_patches, boundary, cache);
   else
     plain_stresses->measure_from(other);
 }
 
-bool EquilibratedStress::has_macro_cells() const
+bool EquilibratedStress::has_rows() const
 {
-  return vertex_patches.has_macro_cells;
+  return vertex_patches.has_rows;
 }
 
-Tensor<2, 2> EquilibratedStress::macro_value(const unsigned int cell,
-                                             const Point<2> &reference) const
+Tensor<2, 2> EquilibratedStress::value_of_rows(const unsigned int cell,
+                                               const Point<2> &reference) const
 {
-  return macro_stresses->value(cell, macro_tractions(cell), reference);
+  return row_stresses->value(cell, row_tractions(cell), reference);
 }
 
 StressElement::Stress EquilibratedStress::stress(const unsigned int cell) const

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/equilibration_cache.h>
 
 #include <utility>
 
 namespace hpvi
 {
+const RowTable &EquilibrationCache::row_table(const unsigned int degree, const unsigned int n_gauss,
+                                              const unsigned int marked_corners)
+{
+  return memoised(row_tables, {{degree, n_gauss, marked_corners}},
+                  [&]() { return RowTable(degree, n_gauss, marked_corners); });
+}
+
 void EquilibrationCache::drop_unused()
 {
   const auto drop = [](auto &map)
@@ -15,7 +23,7 @@ void EquilibrationCache::drop_unused()
       else
         entry = map.erase(entry);
   };
-  drop(macro_elements);
+  drop(row_elements);
   drop(patches); // whose signatures hold addresses of elements
 }
 } // namespace hpvi

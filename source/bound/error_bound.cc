@@ -23,7 +23,7 @@
 #include <hpvi/bound/contact_correction.h>
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/error_bound.h>
-#include <hpvi/bound/macro_stresses.h>
+#include <hpvi/bound/row_stresses.h>
 
 #include <boost/math/tools/minima.hpp>
 
@@ -106,8 +106,8 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
   const auto root = [&](const double lambda)
   {
     const double nu = 1 - lambda, half = nu * lambda * b, rest = 1 - nu * nu;
-    return (half + std::sqrt(half * half +
-                             rest * (A * A + 2 * lambda * gap + lambda * lambda * b * b))) /
+    return (half +
+            std::sqrt(half * half + rest * (A * A + 2 * lambda * gap + lambda * lambda * b * b))) /
            rest;
   };
   result.total =
@@ -118,8 +118,7 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
 void set_radius(ErrorBound &result, const EquilibratedStress &stress,
                 const ContactCorrection<2> &correction, const DataError &data)
 {
-  const double A = stress_and_oscillation(stress, data),
-               gap = std::max(0., sum(correction.gap())),
+  const double A = stress_and_oscillation(stress, data), gap = std::max(0., sum(correction.gap())),
                b = distance_from_admissible(correction, data);
   const auto radius = [&](const double theta)
   {
@@ -219,7 +218,7 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
     return "pressure is negative between the nodes of contact, by " + text(pressure.tension(), 2) +
            " of the largest, and cannot be made admissible";
   if (has_distorted_cells(solution))
-    if (const std::string cut = cut_inside_distorted_cell(solution); !cut.empty())
+    if (const std::string cut = cut_inside_cell(solution); !cut.empty())
       return cut;
   if (solution.scene.has_plates() && has_long_cells(solution))
     return "cells are more than four times as long as wide, and a stress that is made in all of "

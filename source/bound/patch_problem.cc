@@ -354,14 +354,4 @@ TractionEnergy traction_energy(const StressElement &element)
           {&element.edge_energy()[element.n_divergence], element.n_data},
           {&element.conditions()[element.n_divergence], element.n_data}};
 }
-
-TractionEnergy traction_energy(const MacroStressElement &element)
-{
-  const unsigned int n = element.n_edges / 8;
-  return {n,
-          n,
-          MacroStressElement::n_conditions,
-          {element.edge_energy().data(), element.n_edges},
-          {element.conditions().data(), element.n_edges}};
-}
 } // namespace hpvi

@@ -70,8 +70,7 @@ std::pair<unsigned int, double> placed(const StressEdge &edge, const ContactSegm
 }
 } // namespace
 
-VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_macro_cells)
-    : has_macro_cells(has_macro_cells)
+VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_rows) : has_rows(has_rows)
 {
   collect_edges(solution);
   for (StressEdge &edge : all_edges)
@@ -130,13 +129,16 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
         edge.sides.push_back(
             {cell->neighbor(f)->active_cell_index(), cell->neighbor_face_no(f), whole_edge});
       const Tensor<1, 2> along = cell->face(f)->vertex(1) - cell->face(f)->vertex(0);
-      edge.tangent = along / along.norm();
+      edge.length = along.norm();
+      const CellMap<2> map = map_of<2>(cell);
+      edge.is_curved = map.is_curved() && map.blends()[f];
+      edge.tangent = along / edge.length;
       const double turn = f < 2 ? 1. : -1.;
       edge.normal[0] = turn * edge.tangent[1];
       edge.normal[1] = -turn * edge.tangent[0];
       const Tensor<1, 2> across = cell->vertex(f < 2 ? 1 : 2) - cell->vertex(0);
-      if (!has_macro_cells && std::abs(across * edge.tangent) >
-                                  1e-10 * across.norm()) // or round-off, far from the origin
+      if (!has_rows && std::abs(across * edge.tangent) >
+                           1e-10 * across.norm()) // or round-off, far from the origin
         edge.skew = (across * edge.tangent) / (across * edge.normal);
       if (edge.contact_face != numbers::invalid_unsigned_int)
         if (const ContactSegment<2> *const other =
@@ -186,7 +188,7 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
   const std::array<bool, 2> held{
       {bool(condition.displacement[0]), bool(condition.displacement[1])}};
   const bool axis_parallel = std::min(std::abs(edge.normal[0]), std::abs(edge.normal[1])) < 1e-12;
-  if (held[0] != held[1] && !axis_parallel)
+  if (edge.is_curved || (held[0] != held[1] && !axis_parallel))
   {
     one = {Tensor<1, 2>({1., 0.}), 0, held[0]};
     other = {Tensor<1, 2>({0., 1.}), 0, held[1]};
@@ -205,9 +207,9 @@ void VertexPatches::set_components(const Scene<2> &scene, StressEdge &edge) cons
   set_directions(scene, edge);
   auto &[one, other] = edge.components;
   const bool along_edge = one.direction == edge.normal;
-  if (!has_macro_cells && one.is_unknown != other.is_unknown && (edge.skew != 0. || !along_edge))
+  if (!has_rows && one.is_unknown != other.is_unknown && (edge.skew != 0. || !along_edge))
     edge.degree = std::max(edge.degree, 5U);
-  one.n = has_macro_cells ? edge.degree : edge.degree - 1;
+  one.n = has_rows ? edge.degree : edge.degree - 1;
   other.n = along_edge ? edge.degree : one.n;
 }
 
@@ -264,6 +266,7 @@ void VertexPatches::set_hats(const Solution<2> &solution)
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
   {
     all_cells[cell->active_cell_index()].iterator = cell;
+    all_cells[cell->active_cell_index()].has_rows = has_rows;
     first.push_back(all_hats.size());
     for (unsigned int v = 0; v < 4; ++v)
       if (const unsigned int vertex = cell->vertex_index(v);

@@ -31,6 +31,12 @@ public:
   /** The part of it that loads and springs exert. */
   dealii::Tensor<1, 2> load(unsigned int edge, double s) const;
 
+  /** int (what loads exert) . v over an edge, by the points of the discrete equations; v of s [stress length^dim]. */
+  double work_of_loads(unsigned int edge,
+                       const std::function<dealii::Tensor<1, 2>(double)> &v) const;
+
+  double stretch(const StressEdge &edge, double s) const; ///< |x'(s)|/length
+
   /** Points and weights on [0,1] for integrals with it. */
   std::vector<std::pair<double, double>> points(unsigned int edge) const;
 
@@ -61,6 +67,7 @@ private:
   };
 
   LoadRule<1> rule(const StressEdge &edge, Datum datum) const;
+  dealii::Point<2> point(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> load_on(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> spring_on(const StressEdge &edge, double s) const;
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,

@@ -3,8 +3,8 @@
 #define hpvi_equilibrated_stress_h
 
 #include <hpvi/bound/boundary_tractions.h>
-#include <hpvi/bound/macro_stresses.h>
 #include <hpvi/bound/parallelogram_stresses.h>
+#include <hpvi/bound/row_stresses.h>
 
 #include <array>
 #include <memory>
@@ -35,7 +35,11 @@ public:
                      EquilibrationCache &cache, const Solution<2> *measured = nullptr,
                      Volume volume = Volume::full);
 
-  std::vector<double> squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index
+  std::vector<double>
+      squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index, s the symmetric part of rows
+
+  /** Likewise C_K |s_12 - s_21|, a part of the oscillation. */
+  std::vector<double> antisymmetry;
   double defect =
       0; ///< largest violation of a condition N'r = 0, relative to tractions, or initial stresses where these are larger
   unsigned int worst_vertex = 0;    ///< of the patch with it
@@ -51,7 +55,7 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
-  /** What the initial stress has beyond the polynomials of s, in complementary energy; macro cells count it in `squares`. */
+  /** What the initial stress has beyond the polynomials of s, in complementary energy; rows count it in `squares`. */
   double missed_initial_stress(unsigned int cell) const;
 
   /** initial_stress_error() of @p cell at the points of @p solution, looked at in the first step that has the cell. */
@@ -65,11 +69,11 @@ public:
   /** B of the element of a cell: `s = B S B'`. */
   dealii::Tensor<2, 2> frame(unsigned int cell) const;
 
-  /** Has the mesh cells that are no parallelograms, so that all are macro cells? */
-  bool has_macro_cells() const;
+  /** Has the mesh cells that are no parallelograms, so that all have stresses by rows? */
+  bool has_rows() const;
 
-  /** s on a macro cell at reference coordinates in [0,1]. */
-  dealii::Tensor<2, 2> macro_value(unsigned int cell, const dealii::Point<2> &reference) const;
+  /** s by rows on a cell at reference coordinates in [0,1]. */
+  dealii::Tensor<2, 2> value_of_rows(unsigned int cell, const dealii::Point<2> &reference) const;
 
 private:
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
@@ -78,15 +82,15 @@ private:
   void solve_all_cells();
   void add_tractions(unsigned int cell, double *target) const;
   std::vector<double> data_of(unsigned int cell) const;
-  std::vector<double> macro_tractions(unsigned int cell) const;
+  std::vector<double> row_tractions(unsigned int cell) const;
   void measure_from(const Solution<2> &other);
   void measure();
 
   EquilibrationCache &cache;
   const VertexPatches vertex_patches;
   const BoundaryTractions boundary;
-  std::unique_ptr<const MacroStresses> macro_stresses;
-  std::unique_ptr<ParallelogramStresses> plain_stresses; ///< without macro cells
+  std::unique_ptr<const RowStresses> row_stresses;
+  std::unique_ptr<ParallelogramStresses> plain_stresses; ///< without rows
   std::vector<std::array<std::vector<double>, 2>> sums;  ///< tractions
 };
 } // namespace hpvi

@@ -4,8 +4,8 @@
 
 #include <hpvi/algebra/triangular.h>
 #include <hpvi/bound/legendre.h>
-#include <hpvi/bound/macro_stress_element.h>
 #include <hpvi/bound/patch_data.h>
+#include <hpvi/bound/row_element.h>
 #include <hpvi/bound/stress_element.h>
 #include <hpvi/plane/load_rule.h>
 
@@ -30,7 +30,10 @@ struct EquilibrationCache
 {
   using Signature = std::vector<long>;
   LegendreTables legendre;
-  TriangleStresses triangles;
+
+  const RowTable &row_table(unsigned int degree, unsigned int n_gauss,
+                            unsigned int marked_corners); ///< threads may ask together
+  std::map<std::array<unsigned int, 3>, RowTable> row_tables;
   std::map<Signature, std::unique_ptr<const StressElement>> elements;
   std::map<Signature, PatchData> data_of_modes; ///< by address of the element, p and n_force
 
@@ -41,7 +44,7 @@ struct EquilibrationCache
     T value;
     bool is_used = false;
   };
-  std::map<Signature, Kept<std::unique_ptr<const MacroStressElement>>> macro_elements;
+  std::map<Signature, Kept<std::unique_ptr<const RowElement>>> row_elements;
   std::map<Signature, Kept<PatchFactor>> patches;
   std::map<CellKey, double> initial_stress_errors, ///< by cell and degree
       missed_forces;                               ///< by cell and 1000 m + p
@@ -49,7 +52,7 @@ struct EquilibrationCache
   /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */
   std::map<Signature, std::vector<unsigned int>> independent_conditions;
 
-  /** Drops macro elements and patches that have not been used since the last call. */
+  /** Drops row elements and patches that have not been used since the last call. */
   void drop_unused();
 };
 } // namespace hpvi

@@ -2,8 +2,8 @@
 #ifndef hpvi_patch_problem_h
 #define hpvi_patch_problem_h
 
-#include <hpvi/algebra/dense_algebra.h>
 #include <hpvi/bound/equilibration_cache.h>
+#include <hpvi/bound/traction_energy.h>
 #include <hpvi/bound/vertex_patches.h>
 
 #include <array>
@@ -11,26 +11,7 @@
 
 namespace hpvi
 {
-/** What a patch sees of an element: energy and conditions of the tractions on its faces. */
-struct TractionEnergy
-{
-  unsigned int n_normal, n_tangential, n_conditions;
-  DensePart G, N; ///< n_edges() x n_edges(), n_edges() x n_conditions
-
-  unsigned int n_edges() const
-  {
-    return 4 * (n_normal + n_tangential);
-  }
-
-  /** Place of a coefficient of the traction of @p face among those of all faces. */
-  unsigned int edge_entry(const unsigned int face, const unsigned int tangential) const
-  {
-    return face * (n_normal + n_tangential) + tangential * n_normal;
-  }
-};
-
 TractionEnergy traction_energy(const StressElement &element);
-TractionEnergy traction_energy(const MacroStressElement &element);
 
 /** Of one cell with one hat function: data without tractions, seen by its element. */
 struct PatchCell

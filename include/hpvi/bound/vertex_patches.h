@@ -25,7 +25,10 @@ bool has_long_cells(const Solution<2> &solution);
 /** The part of an edge that a cell of the body opposite has, whose reference coordinate runs the other way. */
 constexpr unsigned int reversed_edge = 2;
 
-/** One edge of the mesh with the traction `s n` of an equilibrated stress on it; where bodies touch one of both. */
+/**
+ * One edge of the mesh with the traction `s n` of an equilibrated stress on it; where bodies touch one of both. Along a curved edge x(s) it is
+ * `s n |x'(s)|/length`, a polynomial of s where the stress is by rows.
+ */
 struct StressEdge
 {
   /** A cell at the edge; the smaller ones at a hanging node see a half of it; at the boundary that of the body opposite. */
@@ -47,8 +50,11 @@ struct StressEdge
   std::array<unsigned int, 2>
       vertices_opposite{}; ///< likewise those of the body opposite, if there is one
   boost::container::static_vector<Side, 3> sides; ///< that of the whole edge first
-  unsigned int degree = 0;     ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
-  dealii::Tensor<1, 2> normal; ///< of the traction: towards growing xi or eta
+  unsigned int degree = 0; ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
+  double length;           ///< between its ends [length]
+  bool is_curved = false;
+  dealii::Tensor<1, 2>
+      normal; ///< of the traction and the line between the ends: towards growing xi or eta
   dealii::Tensor<1, 2> tangent;
   double skew =
       0; ///< of a parallelogram's sides: the shear in its frame is `S_xy = T_t - skew T_n`
@@ -86,13 +92,13 @@ struct StressEdge
 class VertexPatches
 {
 public:
-  /** For macro cells normal parts are in P_{m-1} too, and corners ask for nothing. */
-  VertexPatches(const Solution<2> &solution, bool has_macro_cells);
+  /** For stresses by rows both parts are in P_{m-1}, and corners ask for nothing. */
+  VertexPatches(const Solution<2> &solution, bool has_rows);
 
   VertexPatches(const VertexPatches &) = delete; // cells and patches refer to hats
   VertexPatches &operator=(const VertexPatches &) = delete;
 
-  const bool has_macro_cells;
+  const bool has_rows;
 
   /** psi_a on one cell. */
   struct Hat
@@ -106,13 +112,17 @@ public:
     dealii::DoFHandler<2>::active_cell_iterator iterator;
     std::array<unsigned int, 4> edges, parts; ///< by face
     dealii::ArrayView<const Hat> hats;
+    bool has_rows =
+        false; ///< are components of its tractions along x and y, in place of normal and tangential ones?
     /** 1, or -1 where one of the cells at an edge has it along xi and the other along eta: its own normal is that of the edge turned. */
     std::array<double, 4> turns{{1., 1., 1., 1.}};
 
-    /** Of a component in the normal (0) or tangential (1) traction in the cell's own frame; a turned normal turns the traction, too. */
+    /** Of a component in the normal (0) or tangential (1) traction in the cell's own frame, or along x or y; a turned normal turns the traction, too. */
     double weight(unsigned int face, const StressEdge &edge, const StressEdge::Component &component,
                   unsigned int row) const
     {
+      if (has_rows)
+        return turns[face] * component.direction[row];
       return row == 0 ? component.direction * edge.normal
                       : turns[face] * (component.direction * edge.tangent);
     }

@@ -26,6 +26,11 @@ public:
 
   explicit operator bool() const; ///< is the edge curved?
 
+  unsigned int degree() const ///< of a curved edge: p
+  {
+    return coefficients.size() - 1;
+  }
+
   /** At s in [0,1], with the derivatives by s up to @p order <= 2. */
   std::array<dealii::Tensor<1, 2>, 3> operator()(double s, unsigned int order = 0) const;
 
