@@ -526,8 +526,13 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
 {
   StageTimer timer(backend->times.recover);
   take_bound(known_bound(), step, history.back());
-  const bool is_bounded = step.bound && scene.intervals;
-  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces) : step.no_bound;
+  // Forces and means need displacements on a mesh of their own, and the body of a step is that of its degrees.
+  const bool is_curved = scene.geometry.has_curves(),
+             is_bounded = step.bound && scene.intervals && !is_curved;
+  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces)
+                      : step.bound && is_curved
+                          ? "curved edges change with the degrees of their cells"
+                          : step.no_bound;
   if (is_bounded)
     mean_intervals.set(step);
   compare_claims(step);
@@ -539,6 +544,8 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
 template <int dim>
 void AdaptiveSolver<dim>::compare_claims(StepReport<dim> &step)
 {
+  if (scene.geometry.has_curves()) // each step has a body of its own
+    return;
   PastStep<dim> &past = history.back();
   past.claims = claims_of(step, backend->field().largest_displacement());
   Claims earlier;

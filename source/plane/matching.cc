@@ -115,6 +115,21 @@ const BoundaryCondition<dim> *oblique_contact(const Scene<dim> &scene)
         return &boundary;
   return nullptr;
 }
+
+/** The first boundary along a curve whose normal displacement is held, or has a bound; null: there is none. */
+template <int dim>
+const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
+{
+  if (!scene.geometry.has_curves())
+    return nullptr;
+  const std::vector<Side<dim>> sides = sides_of(scene);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (boundary.has_contact() || boundary.symmetry)
+      for (const CurvePiece &curve : sides[boundary.id].curves)
+        if (curve)
+          return &boundary;
+  return nullptr;
+}
 } // namespace
 
 template <int dim>
@@ -130,8 +145,9 @@ std::string no_error_bound(const Scene<dim> &scene)
     return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (scene.adaptivity.start_degree < 2)
     return "cells have degree 1";
-  if (scene.geometry.has_curves())
-    return "cells have curved edges, and stresses in equilibrium are known on straight ones";
+  if (const BoundaryCondition<dim> *const curved = curved_contact(scene))
+    return "the normal of " + printable(curved->name) +
+           " turns along a curved edge, and tractions of a stress in equilibrium do not follow it";
   if (!scene.bound_on_distorted_cells && scene.geometry.has_mesh() && scene.geometry.bodies.empty())
     return "cells are in no rows and columns, and Error/Bound on distorted cells is false";
   if (!scene.bound_on_distorted_cells && !scene.geometry.has_affine_cells())
