@@ -47,20 +47,23 @@ std::array<double, 3> corner_stress(const unsigned int m, const unsigned int cor
   return s;
 }
 
-Quadrature<2> corner_quadrature(const unsigned int n_gauss)
+Quadrature<2> corner_quadrature(const std::vector<unsigned int> &corners,
+                                const unsigned int n_gauss)
 {
   const QGauss<1> gauss(n_gauss);
+  const bool is_one = corners.size() == 1;
+  const double side = is_one ? 1. : 0.5;
   std::vector<Point<2>> points;
   std::vector<double> weights;
-  for (unsigned int quarter = 0; quarter < 4; ++quarter)
-    for (unsigned int a = 0; a < n_gauss; ++a)
+  for (unsigned int corner = 0; corner < 4; ++corner)
+    for (unsigned int a = 0; (!is_one || corner == corners[0]) && a < n_gauss; ++a)
       for (unsigned int b = 0; b < n_gauss; ++b)
       {
-        const double u = gauss.point(a)[0] / 2, v = u * gauss.point(b)[0];
+        const double u = side * gauss.point(a)[0], v = u * gauss.point(b)[0];
         for (const auto &[x, y] : {std::make_pair(u, v), std::make_pair(v, u)})
         {
-          points.emplace_back(quarter % 2 ? 1 - x : x, quarter / 2 ? 1 - y : y);
-          weights.push_back(u * gauss.weight(a) * gauss.weight(b) / 2);
+          points.emplace_back(corner % 2 ? 1 - x : x, corner / 2 ? 1 - y : y);
+          weights.push_back(side * u * gauss.weight(a) * gauss.weight(b));
         }
       }
   return Quadrature<2>(points, weights);

@@ -7,7 +7,7 @@
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/row_element.h>
 
-#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/polynomial.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,18 +21,20 @@ namespace
 {
 constexpr char cells[] = "the rows of stresses";
 
-/** L_i, and N_i, the integral of L_i from -1, for i <= k at x. */
+/** At x: L_i for i <= k; N_i, the integral of L_i from -1, for 0 < i <= k, then (1 - x)/2 and (1 + x)/2. */
 struct Values
 {
-  Values(const unsigned int k, const double x) : L(legendre::values(k + 2, x)), N(k + 1)
+  Values(const unsigned int k, const double x) : L(legendre::values(k + 2, x))
   {
-    N[0] = (1 + x) * L[0];
     for (unsigned int i = 1; i <= k; ++i) // P_{i+1} - P_{i-1} = (2i + 1) int P_i
-      N[i] = legendre::root(i) *
-             (L[i + 1] / legendre::root(i + 1) - L[i - 1] / legendre::root(i - 1)) / (2 * i + 1);
+      own.push_back(legendre::root(i) *
+                    (L[i + 1] / legendre::root(i + 1) - L[i - 1] / legendre::root(i - 1)) /
+                    (2 * i + 1));
+    own.insert(own.end(), {(1 - x) / 2, (1 + x) / 2});
+    L.pop_back();
   }
 
-  std::vector<double> L, N;
+  std::vector<double> L, own;
 };
 } // namespace
 
@@ -40,57 +42,88 @@ RowTable::RowTable(const unsigned int degree, const unsigned int n_gauss,
                    const unsigned int marked_corners)
     : k(degree), n_gauss(n_gauss)
 {
+  set_products();
+  const QGauss<1> gauss(n_gauss);
+  const QGauss<2> rule(n_gauss);
+  points = rule.get_points();
+  for (const double weight : rule.get_weights())
+    weights.push_back(4 * weight);
+  for (const Point<1> &point : gauss.get_points())
+  {
+    const Values at_point(k, 2 * point[0] - 1);
+    own.insert(own.end(), at_point.own.begin(), at_point.own.end());
+    other.insert(other.end(), at_point.L.begin(), at_point.L.end());
+  }
   for (unsigned int corner = 0; corner < 4; ++corner)
     if (marked_corners & (1u << corner))
       corners.push_back(corner);
-  const Quadrature<2> rule = corners.empty() ? QGauss<2>(n_gauss) : corner_quadrature(n_gauss);
-  points = rule.get_points();
-  for (unsigned int q = 0; q < points.size(); ++q)
+  if (!corners.empty())
+    set_corners(gauss);
+}
+
+void RowTable::set_corners(const QGauss<1> &gauss)
+{
+  constexpr unsigned int further = 8; // arctan and its slopes, pole at i
+  at_corners = corner_quadrature(corners, n_gauss + further);
+  const auto basis = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
+  for (unsigned int d = 0; d < 2; ++d)
   {
-    weights.push_back(4 * rule.weight(q));
-    const auto values = at(points[q]);
-    for (unsigned int d = 0; d < 2; ++d)
-      fields[d].insert(fields[d].end(), values[d].begin(), values[d].end());
+    interpolation[d].reinit(at_corners.size(), n_gauss);
+    for (unsigned int q = 0; q < at_corners.size(); ++q)
+      for (unsigned int i = 0; i < n_gauss; ++i)
+        interpolation[d](q, i) = basis[i].value(at_corners.point(q)[d]);
   }
+  for (const unsigned int corner : corners)
+  {
+    corner_stresses.emplace_back();
+    for (const Point<2> &point : at_corners.get_points())
+      corner_stresses.back().push_back(
+          corner_stress(k + 1, corner, 2 * point[0] - 1, 2 * point[1] - 1));
+  }
+}
+
+void RowTable::set_products()
+{
+  const double one = std::sqrt(2.); // over L_0
+  const auto product = [this](const unsigned int x, const unsigned int l, const double factor) {
+    return Product{x * (k + 1) + l, factor};
+  };
+  const auto add = [this](const Product &xi, const Product &eta)
+  {
+    products[0].push_back(xi);
+    products[1].push_back(eta);
+  };
+  for (unsigned int i = 1; i <= k; ++i)
+    for (unsigned int j = 1; j <= k; ++j)
+      add(product(i - 1, j, 1.), product(j - 1, i, -1.));
+  for (unsigned int face = 0; face < 4; ++face)
+    for (unsigned int i = 0; i <= k; ++i)
+    {
+      const Product across = product(k + face % 2, i, 1.),
+                    along = i > 0 ? product(i - 1, 0, (face % 2 ? -0.5 : 0.5) * one) : Product();
+      face < 2 ? add(across, along) : add(along, across);
+    }
+  for (unsigned int i = 0; i <= k; ++i)
+    for (unsigned int j = 0; j <= k; ++j)
+      i > 0 ? add(product(i - 1, j, 1.), Product())
+            : add(Product(), j > 0 ? product(j - 1, 0, 1.) : Product());
 }
 
 std::array<std::vector<double>, 2> RowTable::at(const Point<2> &reference) const
 {
-  const Values x(k, 2 * reference[0] - 1), y(k, 2 * reference[1] - 1);
+  const std::array<Values, 2> along{
+      {Values(k, 2 * reference[0] - 1), Values(k, 2 * reference[1] - 1)}};
   std::array<std::vector<double>, 2> result;
-  const auto add = [&](const double xi, const double eta)
-  {
-    result[0].push_back(xi);
-    result[1].push_back(eta);
-  };
-  for (unsigned int i = 1; i <= k; ++i)
-    for (unsigned int j = 1; j <= k; ++j)
-      add(x.N[i] * y.L[j], -x.L[i] * y.N[j]);
-  for (unsigned int face = 0; face < 4; ++face)
-  {
-    const double s = reference[face / 2], near = face % 2 ? s : 1 - s, turn = face % 2 ? -0.5 : 0.5;
-    const Values &along = face < 2 ? y : x;
-    for (unsigned int i = 0; i <= k; ++i)
-    {
-      const double own = near * along.L[i], other = i > 0 ? turn * along.N[i] : 0.;
-      face < 2 ? add(own, other) : add(other, own);
-    }
-  }
-  for (unsigned int i = 0; i <= k; ++i)
-    for (unsigned int j = 0; j <= k; ++j)
-      i > 0 ? add(x.N[i] * y.L[j], 0.) : add(0., j > 0 ? std::sqrt(0.5) * y.N[j] : 0.);
-  for (const unsigned int corner : corners)
-  {
-    const auto [xx, yy, xy] =
-        corner_stress(k + 1, corner, 2 * reference[0] - 1, 2 * reference[1] - 1);
-    add(xx, xy);
-    add(xy, yy);
-  }
+  for (unsigned int d = 0; d < 2; ++d)
+    for (const auto &[number, factor] : products[d])
+      result[d].push_back(factor * along[d].own[number / (k + 1)] *
+                          along[1 - d].L[number % (k + 1)]);
   return result;
 }
 
 // @sect3{At points}
-RowValues::RowValues(const RowTable &table, const RowShape &shape) : table(table), compliance()
+RowValues::RowValues(const RowTable &table, const RowShape &shape)
+    : table(table), antisymmetry(std::sqrt(RowElement::theta) * shape.antisymmetry), compliance()
 {
   const HookesLaw<2> law(*shape.law);
   std::array<SymmetricTensor<2, 2>, 3> unit;
@@ -107,52 +140,157 @@ RowValues::RowValues(const RowTable &table, const RowShape &shape) : table(table
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
     const Tensor<2, 2> J = shape.map.jacobian(table.points[q]) / (2 * shape.h);
-    const double det = determinant(J);
-    require_regular(det > 0, cells);
-    roots.push_back(std::sqrt(table.weights[q] * det));
+    require_regular(determinant(J) > 0, cells);
+    roots.push_back(std::sqrt(table.weights[q] * determinant(J)));
+    auto both = frames_at(J);
     for (unsigned int row = 0; row < 2; ++row)
     {
-      Frame frame;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        // of a unit component along d: (s_row,0, s_row,1)
-        const std::array<double, 2> s{{J[0][d] / det, J[1][d] / det}};
-        const std::array<double, 3> symmetric = row == 0
-                                                    ? std::array<double, 3>{{s[0], 0., s[1] / 2}}
-                                                    : std::array<double, 3>{{0., s[1], s[0] / 2}};
-        for (unsigned int a = 0; a < 3; ++a)
-        {
-          frame[a][d] = 0;
-          for (unsigned int b = a; b < 3; ++b)
-            frame[a][d] += roots[q] * compliance[b][a] * symmetric[b];
-        }
-        frame[3][d] = roots[q] * std::sqrt(RowElement::theta) * shape.antisymmetry *
-                      (row == 0 ? s[1] : -s[0]);
-      }
-      frames[row].push_back(frame);
+      for (auto &part : both[row])
+        for (double &value : part)
+          value *= roots[q];
+      frames[row].push_back(both[row]);
     }
   }
+  if (!table.corners.empty())
+    set_corners(shape);
 }
 
-void RowValues::add(const std::vector<double> &coefficients, std::vector<double> &values) const
+/** Of the Jacobian in units of h: what unit components of either row are in energy per area. */
+std::array<RowValues::Frame, 2> RowValues::frames_at(const Tensor<2, 2> &J) const
 {
-  const unsigned int n = table.n_fields(), n_points = table.points.size();
-  std::vector<double> field(n_points);
+  const double det = determinant(J);
+  std::array<Frame, 2> result;
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int d = 0; d < 2; ++d)
     {
-      multiply('T', 'N', n_points, 1, n, 1., {table.fields[d].data(), n},
-               {&coefficients[row * n], n}, 0., field.data(), n_points);
-      for (unsigned int part = 0; part < n_parts; ++part)
-        for (unsigned int q = 0; q < n_points; ++q)
-          values[part * n_points + q] += frames[row][q][part][d] * field[q];
+      const std::array<double, 2> s{{J[0][d] / det, J[1][d] / det}}; // (s_row,1, s_row,2)
+      const std::array<double, 3> symmetric = row == 0
+                                                  ? std::array<double, 3>{{s[0], 0., s[1] / 2}}
+                                                  : std::array<double, 3>{{0., s[1], s[0] / 2}};
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        result[row][a][d] = 0;
+        for (unsigned int b = a; b < 3; ++b)
+          result[row][a][d] += compliance[b][a] * symmetric[b];
+      }
+      result[row][3][d] = antisymmetry * (row == 0 ? s[1] : -s[0]);
     }
+  return result;
 }
 
-std::vector<double> RowValues::derivatives(const std::vector<double> &values) const
+Tensor<2, 2> corner_frame(const RowShape &shape, const unsigned int corner)
 {
-  const unsigned int n = table.n_fields(), n_points = table.points.size();
-  std::vector<double> result(2 * n), field(n_points);
+  return shape.map.jacobian(Point<2>(corner % 2, corner / 2)) / shape.h;
+}
+
+void RowValues::set_corners(const RowShape &shape)
+{
+  const unsigned int n_corners = table.corners.size(), n = table.n_gauss,
+                     n_points = table.points.size();
+  corner_moments.assign(n_corners, std::vector<double>(n_parts * n_points));
+  corner_products.fill(std::vector<double>(n_corners * n_corners));
+  std::vector<std::array<double, n_parts>> at_point(n_corners);
+  for (unsigned int q = 0; q < table.at_corners.size(); ++q)
+  {
+    const Tensor<2, 2> J = shape.map.jacobian(table.at_corners.point(q)) / (2 * shape.h);
+    const double weight = 4 * table.at_corners.weight(q) * determinant(J);
+    const std::array<Frame, 2> both = frames_at(J);
+    for (unsigned int c = 0; c < n_corners; ++c)
+    {
+      const auto [xx, yy, xy] = table.corner_stresses[c][q];
+      const Tensor<2, 2> B = corner_frame(shape, table.corners[c]);
+      for (unsigned int part = 0; part < n_parts; ++part)
+      {
+        at_point[c][part] = 0;
+        for (unsigned int row = 0; row < 2; ++row)
+          at_point[c][part] += both[row][part][0] * (B[row][0] * xx + B[row][1] * xy) +
+                               both[row][part][1] * (B[row][0] * xy + B[row][1] * yy);
+        for (unsigned int b = 0; b < n; ++b)
+          for (unsigned int a = 0; a < n; ++a)
+            corner_moments[c][part * n_points + b * n + a] += weight * at_point[c][part] *
+                                                              table.interpolation[0](q, a) *
+                                                              table.interpolation[1](q, b);
+      }
+    }
+    for (unsigned int c = 0; c < n_corners; ++c)
+      for (unsigned int e = 0; e < n_corners; ++e)
+        for (unsigned int part = 0; part < n_parts; ++part)
+          corner_products[part == n_parts - 1][c * n_corners + e] +=
+              weight * at_point[c][part] * at_point[e][part];
+  }
+  for (std::vector<double> &moments : corner_moments)
+    for (unsigned int i = 0; i < moments.size(); ++i)
+      moments[i] /= roots[i % n_points];
+}
+
+// Products of functions of one variable are summed one variable after the other.
+/** One component of a row at all points. */
+std::vector<double> RowValues::at_points(const double *const coefficients,
+                                         const unsigned int d) const
+{
+  const unsigned int n = table.n_gauss, k = table.k;
+  std::vector<double> result(table.points.size());
+  std::vector<double> modes((k + 1) * (k + 2)), half(n * (k + 2));
+  for (unsigned int m = 0; m < table.products[d].size(); ++m)
+    modes[table.products[d][m].number] += table.products[d][m].factor * coefficients[m];
+  multiply('T', 'N', n, k + 2, k + 1, 1., {table.other.data(), k + 1}, {modes.data(), k + 1}, 0.,
+           half.data(), n);
+  if (d == 0)
+    multiply('T', 'T', n, n, k + 2, 1., {table.own.data(), k + 2}, {half.data(), n}, 0.,
+             result.data(), n);
+  else
+    multiply('N', 'N', n, n, k + 2, 1., {half.data(), n}, {table.own.data(), k + 2}, 0.,
+             result.data(), n);
+  return result;
+}
+
+/** The transposed, added. */
+void RowValues::add_moments(const std::vector<double> &values, const unsigned int d,
+                            double *const result) const
+{
+  const unsigned int n = table.n_gauss, k = table.k;
+  std::vector<double> modes((k + 1) * (k + 2)), half((k + 2) * n);
+  if (d == 0)
+  {
+    multiply('N', 'N', k + 2, n, n, 1., {table.own.data(), k + 2}, {values.data(), n}, 0.,
+             half.data(), k + 2);
+    multiply('N', 'T', k + 1, k + 2, n, 1., {table.other.data(), k + 1}, {half.data(), k + 2}, 0.,
+             modes.data(), k + 1);
+  }
+  else
+  {
+    multiply('N', 'N', k + 1, n, n, 1., {table.other.data(), k + 1}, {values.data(), n}, 0.,
+             half.data(), k + 1);
+    multiply('N', 'T', k + 1, k + 2, n, 1., {half.data(), k + 1}, {table.own.data(), k + 2}, 0.,
+             modes.data(), k + 1);
+  }
+  for (unsigned int m = 0; m < table.products[d].size(); ++m)
+    result[m] += table.products[d][m].factor * modes[table.products[d][m].number];
+}
+
+void RowValues::add(const RowFields &fields, Stress &stress) const
+{
+  const unsigned int n_points = table.points.size();
+  for (unsigned int row = 0; row < 2; ++row)
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const std::vector<double> field = at_points(&fields.fields[row * table.n_fields()], d);
+      for (unsigned int part = 0; part < n_parts; ++part)
+        for (unsigned int q = 0; q < n_points; ++q)
+          stress.values[part * n_points + q] += frames[row][q][part][d] * field[q];
+    }
+  for (unsigned int c = 0; c < stress.corners.size(); ++c)
+    stress.corners[c] += fields.corners[c];
+}
+
+RowFields RowValues::derivatives(const Stress &stress) const
+{
+  const unsigned int n_points = table.points.size(), n_corners = table.corners.size();
+  std::vector<double> values = stress.values, field(n_points);
+  for (unsigned int c = 0; c < n_corners; ++c)
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] += stress.corners[c] * corner_moments[c][i];
+  RowFields result(table);
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int d = 0; d < 2; ++d)
     {
@@ -160,51 +298,187 @@ std::vector<double> RowValues::derivatives(const std::vector<double> &values) co
       for (unsigned int part = 0; part < n_parts; ++part)
         for (unsigned int q = 0; q < n_points; ++q)
           field[q] += frames[row][q][part][d] * values[part * n_points + q];
-      multiply('N', 'N', n, 1, n_points, 1., {table.fields[d].data(), n}, {field.data(), n_points},
-               1., &result[row * n], n);
+      add_moments(field, d, &result.fields[row * table.n_fields()]);
     }
+  for (unsigned int c = 0; c < n_corners; ++c)
+  {
+    result.corners[c] = std::inner_product(stress.values.begin(), stress.values.end(),
+                                           corner_moments[c].begin(), 0.);
+    for (unsigned int e = 0; e < n_corners; ++e)
+      for (const std::vector<double> &products : corner_products)
+        result.corners[c] += products[c * n_corners + e] * stress.corners[e];
+  }
   return result;
+}
+
+double RowValues::square(const Stress &stress, const bool is_antisymmetric) const
+{
+  const unsigned int n_points = table.points.size(), n_corners = table.corners.size(),
+                     first = is_antisymmetric ? (n_parts - 1) * n_points : 0,
+                     end = is_antisymmetric ? n_parts * n_points : (n_parts - 1) * n_points;
+  double sum = 0;
+  for (unsigned int i = first; i < end; ++i)
+  {
+    double twice = stress.values[i];
+    for (unsigned int c = 0; c < n_corners; ++c)
+      twice += 2 * stress.corners[c] * corner_moments[c][i];
+    sum += stress.values[i] * twice;
+  }
+  for (unsigned int c = 0; c < n_corners; ++c)
+    for (unsigned int e = 0; e < n_corners; ++e)
+      sum += stress.corners[c] * stress.corners[e] *
+             corner_products[is_antisymmetric][c * n_corners + e];
+  return std::max(0., sum); // round-off
 }
 
 void RowValues::subtract(const unsigned int q, const SymmetricTensor<2, 2> &sigma, const double psi,
-                         std::vector<double> &values) const
+                         Stress &stress) const
 {
   for (unsigned int a = 0; a < 3; ++a)
     for (unsigned int b = a; b < 3; ++b)
-      values[a * table.points.size() + q] -=
+      stress.values[a * table.points.size() + q] -=
           roots[q] * psi * compliance[b][a] * sigma.access_raw_entry(b);
 }
 
-/** So many fields of one row, from the first on. */
-void RowValues::append(const unsigned int row, const unsigned int first, const unsigned int count,
-                       const double factor, std::vector<double> &columns) const
+std::vector<RowValues::Column> RowValues::columns(const std::array<double, 4> &scale) const
 {
-  const unsigned int n = table.n_fields(), n_points = table.points.size();
-  for (unsigned int m = first; m < first + count; ++m)
-    for (unsigned int part = 0; part < n_parts; ++part)
-      for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const auto &frame = frames[row][q][part];
-        columns.push_back(factor * (frame[0] * table.fields[0][std::size_t(q) * n + m] +
-                                    frame[1] * table.fields[1][std::size_t(q) * n + m]));
-      }
-}
-
-std::vector<double> RowValues::bubbles() const
-{
-  std::vector<double> result;
+  std::vector<Column> result;
   for (unsigned int row = 0; row < 2; ++row)
-    append(row, 0, table.k * table.k, 1., result);
-  return result;
-}
-
-std::vector<double> RowValues::edges(const std::array<double, 4> &scale) const
-{
-  std::vector<double> result;
+    for (unsigned int m = 0; m < table.k * table.k; ++m)
+      result.push_back({row, m, 1.});
   for (unsigned int face = 0; face < 4; ++face)
     for (unsigned int row = 0; row < 2; ++row)
-      append(row, table.of_face(face), table.k + 1, scale[face], result);
+      for (unsigned int i = 0; i <= table.k; ++i)
+        result.push_back({row, table.of_face(face) + i, scale[face]});
   return result;
+}
+
+/** What stands beside the product of component d of a row and component e of another. */
+std::vector<double> RowValues::weight(const unsigned int row, const unsigned int d,
+                                      const unsigned int other_row, const unsigned int e) const
+{
+  std::vector<double> result(table.points.size());
+  for (unsigned int q = 0; q < result.size(); ++q)
+    for (unsigned int part = 0; part < n_parts; ++part)
+      result[q] += frames[row][q][part][d] * frames[other_row][q][part][e];
+  return result;
+}
+
+namespace
+{
+/** f_i g_j at Gauss points, j fastest, from tables of one variable. */
+std::vector<double> pairs(const std::vector<double> &f, const unsigned int n_f,
+                          const std::vector<double> &g, const unsigned int n_g,
+                          const unsigned int n_points)
+{
+  std::vector<double> result;
+  result.reserve(std::size_t(n_f) * n_g * n_points);
+  for (unsigned int q = 0; q < n_points; ++q)
+    for (unsigned int i = 0; i < n_f; ++i)
+      for (unsigned int j = 0; j < n_g; ++j)
+        result.push_back(f[q * n_f + i] * g[q * n_g + j]);
+  return result;
+}
+} // namespace
+
+std::vector<double> RowValues::products(const std::vector<RowFields> &corners,
+                                        const std::array<double, 4> &scale) const
+{
+  const std::vector<Column> all = columns(scale);
+  const unsigned int n_bubbles = 2 * table.k * table.k, n_corners = corners.size(),
+                     stride = all.size() + n_corners;
+  const auto place = [&](const unsigned int column)
+  { return column < n_bubbles ? column : column + n_corners; };
+  std::vector<double> result(std::size_t(stride) * stride);
+  add_products(all, stride, n_corners, result);
+  for (unsigned int c = 0; c < n_corners; ++c)
+  {
+    Stress stress(table);
+    add(corners[c], stress);
+    const RowFields by_fields = derivatives(stress);
+    const auto set = [&](const unsigned int row, const double value)
+    {
+      result[std::size_t(n_bubbles + c) * stride + row] = value;
+      result[std::size_t(row) * stride + n_bubbles + c] = value;
+    };
+    for (unsigned int column = 0; column < all.size(); ++column)
+      set(place(column),
+          all[column].factor *
+              by_fields.fields[all[column].row * table.n_fields() + all[column].field]);
+    for (unsigned int e = 0; e <= c; ++e)
+      set(n_bubbles + e, std::inner_product(by_fields.fields.begin(), by_fields.fields.end(),
+                                            corners[e].fields.begin(), by_fields.corners[e]));
+  }
+  return result;
+}
+
+/** Of the columns, with room for corners behind the bubbles. */
+void RowValues::add_products(const std::vector<Column> &all, const unsigned int stride,
+                             const unsigned int n_corners, std::vector<double> &result) const
+{
+  const unsigned int n_bubbles = 2 * table.k * table.k;
+  const auto place_of = [&](const unsigned int column)
+  { return column < n_bubbles ? column : column + n_corners; };
+  const unsigned int n = table.n_gauss, n_own = table.k + 2, n_other = table.k + 1,
+                     n_columns = all.size();
+  const std::vector<double> squares = pairs(table.other, n_other, table.other, n_other, n),
+                            own_squares = pairs(table.own, n_own, table.own, n_own, n),
+                            mixed = pairs(table.own, n_own, table.other, n_other, n);
+  std::vector<double> half, M;
+  // w is n x n, xi fastest: sums over one variable, then over the other
+  const auto sum = [&](const std::vector<double> &of_xi, const std::vector<double> &w,
+                       const std::vector<double> &of_eta)
+  {
+    const unsigned int n_xi = of_xi.size() / n, n_eta = of_eta.size() / n;
+    half.resize(n_xi * n);
+    M.resize(std::size_t(n_xi) * n_eta);
+    multiply('N', 'N', n_xi, n, n, 1., {of_xi.data(), n_xi}, {w.data(), n}, 0., half.data(), n_xi);
+    multiply('N', 'T', n_xi, n_eta, n, 1., {half.data(), n_xi}, {of_eta.data(), n_eta}, 0.,
+             M.data(), n_xi);
+    return n_xi;
+  };
+  for (unsigned int r = 0; r < 2; ++r)
+    for (unsigned int s = 0; s <= r; ++s)
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int e = 0; e < 2; ++e)
+        {
+          const unsigned int n_xi = sum(d != e   ? mixed
+                                        : d == 0 ? own_squares
+                                                 : squares,
+                                        weight(r, d, s, e),
+                                        d != e   ? mixed
+                                        : d == 0 ? squares
+                                                 : own_squares);
+          for (unsigned int a = 0; a < n_columns; ++a)
+          {
+            const RowTable::Product &first = table.products[d][all[a].field];
+            if (all[a].row != r || first.factor == 0.)
+              continue;
+            const unsigned int x = first.number / n_other, l = first.number % n_other;
+            for (unsigned int b = 0; b < n_columns; ++b)
+            {
+              const RowTable::Product &second = table.products[e][all[b].field];
+              if (all[b].row != s || second.factor == 0. || (r == s && b > a))
+                continue;
+              const unsigned int y = second.number / n_other, m = second.number % n_other;
+              // own functions of component 0 depend on xi, of component 1 on eta
+              const std::size_t place = d == 0 && e == 0 ? (l * n_other + m) * n_xi + x * n_own + y
+                                        : d == 1 && e == 1
+                                            ? (x * n_own + y) * n_xi + l * n_other + m
+                                        : d == 0 ? (y * n_other + l) * n_xi + x * n_other + m
+                                                 : (x * n_other + m) * n_xi + y * n_other + l;
+              result[std::size_t(place_of(b)) * stride + place_of(a)] +=
+                  all[a].factor * all[b].factor * first.factor * second.factor * M[place];
+            }
+          }
+        }
+  for (unsigned int a = 0; a < n_columns; ++a)
+    for (unsigned int b = 0; b < a; ++b)
+    {
+      double &one = result[std::size_t(place_of(b)) * stride + place_of(a)],
+             &other = result[std::size_t(place_of(a)) * stride + place_of(b)];
+      one = other = one + other; // of two rows either stands in one of them
+    }
 }
 
 // @sect3{The element}
@@ -222,19 +496,20 @@ std::array<double, 4> over(const std::array<double, 4> &densities, const double 
 RowElement::RowElement(const RowTable &table, const RowShape &shape)
     : table(table), scale(over(shape.densities, shape.h))
 {
-  const RowValues values(table, shape);
-  std::vector<double> B = values.bubbles();
-  add_corners(shape, values, B);
-  const std::vector<double> of_edges = values.edges(scale);
-  const unsigned int n_rows = RowValues::n_parts * table.points.size(), n = n_bubbles(),
-                     m = n_edges();
-  L.resize(std::size_t(n) * n);
-  W.resize(std::size_t(n) * m);
-  G.resize(std::size_t(m) * m);
-  const DensePart bubbles{B.data(), n_rows}, edges{of_edges.data(), n_rows};
-  multiply('T', 'N', n, n, n_rows, 1., bubbles, bubbles, 0., L.data(), n);
-  multiply('T', 'N', n, m, n_rows, 1., bubbles, edges, 0., W.data(), n);
-  multiply('T', 'N', m, m, n_rows, 1., edges, edges, 0., G.data(), m);
+  add_corners(shape);
+  const std::vector<double> H = RowValues(table, shape).products(corners, scale);
+  const unsigned int n = n_bubbles(), m = n_edges(), stride = n + m;
+  for (unsigned int column = 0; column < stride; ++column)
+  {
+    const double *const first = &H[std::size_t(column) * stride];
+    if (column < n)
+      L.insert(L.end(), first, first + n);
+    else
+    {
+      W.insert(W.end(), first, first + n);
+      G.insert(G.end(), first + n, first + stride);
+    }
+  }
   require_regular(cholesky(n, L.data(), n), cells);
   solve_triangular('N', n, m, {L.data(), n}, W.data(), n);
   multiply('T', 'N', m, m, n, -1., {W.data(), n}, {W.data(), n}, 1., G.data(), m);
@@ -306,20 +581,17 @@ std::array<double, 3> RowElement::moments(const double *const divergence) const
   return result;
 }
 
-/** A corner's stress is symmetric where its rows meet, at the corner: s = B S B'. Its fluxes are polynomials, whatever B is. */
-void RowElement::add_corners(const RowShape &shape, const RowValues &values,
-                             std::vector<double> &columns)
+/** Fluxes of a corner's stress are polynomials; fields of edges take them away. */
+void RowElement::add_corners(const RowShape &shape)
 {
   const unsigned int n_fields = table.n_fields(), n = table.k + 1;
   const QGauss<1> gauss(n + 2);
   for (unsigned int c = 0; c < table.corners.size(); ++c)
   {
     const unsigned int corner = table.corners[c];
-    const Tensor<2, 2> B = shape.map.jacobian(Point<2>(corner % 2, corner / 2)) / shape.h;
-    std::vector<double> field(2 * n_fields);
-    for (unsigned int row = 0; row < 2; ++row)
-      for (unsigned int j = 0; j < 2; ++j)
-        field[row * n_fields + table.of_corner(c) + j] = B[row][j];
+    const Tensor<2, 2> B = corner_frame(shape, corner);
+    RowFields bubble(table);
+    bubble.corners[c] = 1.;
     for (unsigned int face = 0; face < 4; ++face)
       for (unsigned int q = 0; q < gauss.size(); ++q)
       {
@@ -329,42 +601,44 @@ void RowElement::add_corners(const RowShape &shape, const RowValues &values,
         const std::vector<double> along = legendre::values(n, 2 * gauss.point(q)[0] - 1);
         for (unsigned int row = 0; row < 2; ++row)
           for (unsigned int i = 0; i < n; ++i)
-            field[row * n_fields + table.of_face(face) + i] -=
+            bubble.fields[row * n_fields + table.of_face(face) + i] -=
                 2 * gauss.weight(q) * flux[row] * along[i];
       }
-    std::vector<double> column(RowValues::n_parts * table.points.size());
-    values.add(field, column);
-    columns.insert(columns.end(), column.begin(), column.end());
-    corners.push_back(std::move(field));
+    corners.push_back(std::move(bubble));
   }
 }
 
-std::vector<double> RowElement::by_bubbles(const std::vector<double> &derivatives) const
+std::vector<double> RowElement::by_bubbles(const RowFields &derivatives) const
 {
   std::vector<double> result;
   for (unsigned int row = 0; row < 2; ++row)
-    result.insert(result.end(), &derivatives[row * table.n_fields()],
-                  &derivatives[row * table.n_fields()] + table.k * table.k);
-  for (const std::vector<double> &corner : corners)
-    result.push_back(std::inner_product(corner.begin(), corner.end(), derivatives.begin(), 0.));
+    result.insert(result.end(), &derivatives.fields[row * table.n_fields()],
+                  &derivatives.fields[row * table.n_fields()] + table.k * table.k);
+  for (unsigned int c = 0; c < corners.size(); ++c)
+    result.push_back(std::inner_product(corners[c].fields.begin(), corners[c].fields.end(),
+                                        derivatives.fields.begin(), derivatives.corners[c]));
   return result;
 }
 
-std::vector<double> RowElement::best_bubbles(const std::vector<double> &derivatives) const
+RowFields RowElement::best_bubbles(const RowFields &derivatives) const
 {
   const unsigned int n = table.k * table.k, n_fields = table.n_fields();
-  std::vector<double> y = by_bubbles(derivatives), result(2 * n_fields);
+  std::vector<double> y = by_bubbles(derivatives);
   solve_by_cholesky(n_bubbles(), L, y.data());
+  RowFields result(table);
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int i = 0; i < n; ++i)
-      result[row * n_fields + i] = -y[row * n + i];
+      result.fields[row * n_fields + i] = -y[row * n + i];
   for (unsigned int c = 0; c < corners.size(); ++c)
-    for (unsigned int i = 0; i < result.size(); ++i)
-      result[i] -= y[2 * n + c] * corners[c][i];
+  {
+    result.corners[c] = -y[2 * n + c];
+    for (unsigned int i = 0; i < result.fields.size(); ++i)
+      result.fields[i] -= y[2 * n + c] * corners[c].fields[i];
+  }
   return result;
 }
 
-std::vector<double> RowElement::reduced(const std::vector<double> &derivatives) const
+std::vector<double> RowElement::reduced(const RowFields &derivatives) const
 {
   const unsigned int n = n_bubbles(), m = n_edges();
   std::vector<double> of_bubbles = by_bubbles(derivatives), result;
@@ -373,7 +647,7 @@ std::vector<double> RowElement::reduced(const std::vector<double> &derivatives) 
     for (unsigned int row = 0; row < 2; ++row)
       for (unsigned int i = 0; i <= table.k; ++i)
         result.push_back(scale[face] *
-                         derivatives[row * table.n_fields() + table.of_face(face) + i]);
+                         derivatives.fields[row * table.n_fields() + table.of_face(face) + i]);
   multiply('T', 'N', m, 1, n, -1., {W.data(), n}, {of_bubbles.data(), n}, 1., result.data(), m);
   return result;
 }

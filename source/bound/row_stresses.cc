@@ -2,6 +2,7 @@
 #include <hpvi/base/memo_table.h>
 #include <hpvi/base/text.h>
 #include <hpvi/bound/cell_constants.h>
+#include <hpvi/bound/corner_stress.h>
 #include <hpvi/bound/row_stresses.h>
 #include <hpvi/plane/element_matrices.h>
 #include <hpvi/plane/initial_stress.h>
@@ -416,15 +417,15 @@ void RowStresses::set_cell(const unsigned int index)
     std::vector<double> &divergence = of_vertices.divergence[v];
     for (unsigned int i = 0; i < moment.size(); ++i)
       divergence[i] += of_vertices.moment[v] / (shape.h * shape.h) * moment[i];
-    std::vector<double> coefficients(2 * element.table.n_fields()),
-        at_points(RowValues::n_parts * element.table.points.size());
+    RowFields fields(element.table);
     for (unsigned int row = 0; row < 2; ++row)
       std::copy(&divergence[row * n * n], &divergence[row * n * n] + n * n,
-                &coefficients[row * element.table.n_fields() + element.table.of_divergence()]);
-    values.add(coefficients, at_points);
+                &fields.fields[row * element.table.n_fields() + element.table.of_divergence()]);
+    RowValues::Stress difference(element.table);
+    values.add(fields, difference);
     for (unsigned int q = 0; q < stress.size(); ++q)
-      values.subtract(q, stress[q], Bilinear(v, element.table.points[q]).value, at_points);
-    gradients[v] = element.reduced(values.derivatives(at_points));
+      values.subtract(q, stress[q], Bilinear(v, element.table.points[q]).value, difference);
+    gradients[v] = element.reduced(values.derivatives(difference));
     defects[v] = element.moments(divergence.data());
   }
   for (const VertexPatches::Hat &hat : patches.cells()[index].hats)
@@ -453,8 +454,7 @@ std::vector<SymmetricTensor<2, 2>> RowStresses::stress_at_points(const unsigned 
   const RowTable &table = cells[index].element->table;
   const unsigned int p = solution.displacement_space.degrees()[index];
   std::vector<SymmetricTensor<2, 2>> result =
-      table.corners.empty() ? sigma(index, solution.tables.gradients(p, table.n_gauss))
-                            : sigma(index, tabulate<2>(p, table.points, table.weights, false));
+      sigma(index, solution.tables.gradients(p, table.n_gauss));
   if (!solution.scene.has_initial_strain())
     return result;
   const auto &iterator = patches.cells()[index].iterator;
@@ -500,19 +500,18 @@ PatchCell RowStresses::patch_cell(const unsigned int index, const unsigned int h
           &cell.defects[hat * energy.n_conditions], &patches.cells()[index]};
 }
 
-/** s - sigma(u_N) in energy at the points, and s by its fields. */
-std::vector<double> RowStresses::residual(const unsigned int index, const RowValues &values,
-                                          const std::vector<double> &tractions,
-                                          std::vector<double> &coefficients) const
+/** s - sigma(u_N), and s by its fields. */
+RowValues::Stress RowStresses::residual(const unsigned int index, const RowValues &values,
+                                        const std::vector<double> &tractions,
+                                        RowFields &fields) const
 {
   const Cell &cell = cells[index];
   const RowTable &table = cell.element->table;
-  const unsigned int n = table.k + 1, n_fields = table.n_fields();
+  const unsigned int n = table.k + 1;
   const RowShape shape = shape_of(index);
-  coefficients.assign(2 * n_fields, 0.);
   for (unsigned int row = 0; row < 2; ++row)
   {
-    double *const own = &coefficients[row * n_fields];
+    double *const own = &fields.fields[row * table.n_fields()];
     for (unsigned int face = 0; face < 4; ++face)
       for (unsigned int i = 0; i < n; ++i)
         own[table.of_face(face) + i] =
@@ -520,15 +519,16 @@ std::vector<double> RowStresses::residual(const unsigned int index, const RowVal
     std::copy(&cell.divergence[row * n * n], &cell.divergence[row * n * n] + n * n,
               own + table.of_divergence());
   }
-  std::vector<double> result(RowValues::n_parts * table.points.size());
-  values.add(coefficients, result);
+  RowValues::Stress result(table);
+  values.add(fields, result);
   const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(index);
   for (unsigned int q = 0; q < stress.size(); ++q)
     values.subtract(q, stress[q], 1., result);
-  const std::vector<double> change = cell.element->best_bubbles(values.derivatives(result));
+  const RowFields change = cell.element->best_bubbles(values.derivatives(result));
   values.add(change, result);
-  for (unsigned int i = 0; i < change.size(); ++i)
-    coefficients[i] += change[i];
+  for (unsigned int i = 0; i < fields.fields.size(); ++i)
+    fields.fields[i] += change.fields[i];
+  fields.corners = change.corners;
   return result;
 }
 
@@ -537,34 +537,37 @@ RowStresses::Distance RowStresses::distance(const unsigned int index,
 {
   const Cell &cell = cells[index];
   const RowValues values(cell.element->table, shape_of(index));
-  std::vector<double> coefficients;
-  const std::vector<double> missed = residual(index, values, tractions, coefficients);
-  const auto split = missed.end() - cell.element->table.points.size();
-  const double symmetric = std::inner_product(missed.begin(), split, missed.begin(), 0.),
-               antisymmetric = std::inner_product(split, missed.end(), split, 0.);
-  return {cell.h * cell.h * symmetric, cell.h * std::sqrt(antisymmetric / RowElement::theta)};
+  RowFields fields(cell.element->table);
+  const RowValues::Stress missed = residual(index, values, tractions, fields);
+  return {cell.h * cell.h * values.square(missed, false),
+          cell.h * std::sqrt(values.square(missed, true) / RowElement::theta)};
 }
 
 Tensor<2, 2> RowStresses::value(const unsigned int index, const std::vector<double> &tractions,
                                 const Point<2> &reference) const
 {
-  const Cell &cell = cells[index];
+  const RowTable &table = cells[index].element->table;
   const RowShape shape = shape_of(index);
-  std::vector<double> coefficients;
-  residual(index, RowValues(cell.element->table, shape), tractions, coefficients);
-  const unsigned int n = cell.element->table.n_fields();
-  const std::array<std::vector<double>, 2> fields = cell.element->table.at(reference);
-  const Tensor<2, 2> J = shape.map.jacobian(reference) / (2 * cell.h);
-  Tensor<2, 2> result;
+  RowFields fields(table);
+  residual(index, RowValues(table, shape), tractions, fields);
+  const std::array<std::vector<double>, 2> at = table.at(reference);
+  Tensor<2, 2> flux;
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int d = 0; d < 2; ++d)
-    {
-      const double flux =
-          std::inner_product(fields[d].begin(), fields[d].end(), &coefficients[row * n], 0.);
-      for (unsigned int c = 0; c < 2; ++c)
-        result[row][c] += J[c][d] / determinant(J) * flux;
-    }
-  return result;
+      flux[row][d] = std::inner_product(at[d].begin(), at[d].end(),
+                                        &fields.fields[row * table.n_fields()], 0.);
+  for (unsigned int c = 0; c < table.corners.size(); ++c)
+  {
+    const auto [xx, yy, xy] =
+        corner_stress(table.k + 1, table.corners[c], 2 * reference[0] - 1, 2 * reference[1] - 1);
+    Tensor<2, 2> S;
+    S[0][0] = xx;
+    S[1][1] = yy;
+    S[0][1] = S[1][0] = xy;
+    flux += fields.corners[c] * corner_frame(shape, table.corners[c]) * S;
+  }
+  const Tensor<2, 2> J = shape.map.jacobian(reference) / (2 * shape.h);
+  return flux * transpose(J) / determinant(J);
 }
 
 double RowStresses::missed_force(const unsigned int cell) const

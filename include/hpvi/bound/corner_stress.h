@@ -5,6 +5,7 @@
 #include <deal.II/base/quadrature.h>
 
 #include <array>
+#include <vector>
 
 namespace hpvi
 {
@@ -15,8 +16,9 @@ namespace hpvi
  */
 std::array<double, 3> corner_stress(unsigned int m, unsigned int corner, double xi, double eta);
 
-/** For integrals with such stresses over the unit square: in each quarter Duffy's, collapsed into the corner, 2 n^2 points. */
-dealii::Quadrature<2> corner_quadrature(unsigned int n_gauss);
+/** For integrals with such stresses over the unit square: Duffy's, collapsed into the corner, of 2 n^2 points; for several corners in each quarter. */
+dealii::Quadrature<2> corner_quadrature(const std::vector<unsigned int> &corners,
+                                        unsigned int n_gauss);
 } // namespace hpvi
 
 #endif

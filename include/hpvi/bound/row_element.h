@@ -6,6 +6,9 @@
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/material.h>
 
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/full_matrix.h>
+
 #include <array>
 #include <vector>
 
@@ -15,8 +18,8 @@ namespace hpvi
  * The Raviart-Thomas fields of degree k on [-1,1]^2, Q_{k+1,k} x Q_{k,k+1}, by what they are made of: k^2 bubbles
  * `curl N_a(xi) N_b(eta)`, N_a the integral of L_a from -1; for each face and i <= k the field with flux L_i there, towards growing
  * xi or eta, and no divergence but its mean; and (k+1)^2 with divergence L_i(xi) L_j(eta) and no flux, none for that which is
- * constant: fluxes and divergence that are in balance have it from the fluxes. Behind them, for each marked corner, both rows of its corner_stress(). At
- * n x n Gauss points, xi fastest, or with corners at those of corner_quadrature().
+ * constant: fluxes and divergence that are in balance have it from the fluxes. At
+ * n x n Gauss points, xi fastest. Beside them the corner_stress() of marked corners.
  */
 struct RowTable
 {
@@ -25,7 +28,7 @@ struct RowTable
 
   unsigned int n_fields() const
   {
-    return of_corner(corners.size());
+    return of_divergence() + (k + 1) * (k + 1);
   }
   unsigned int of_face(const unsigned int face) const
   {
@@ -36,19 +39,35 @@ struct RowTable
     return k * k + 4 * (k + 1);
   }
 
-  unsigned int of_corner(const unsigned int number) const
-  {
-    return of_divergence() + (k + 1) * (k + 1) + 2 * number;
-  }
-
   /** xi and eta component of all fields at reference coordinates in [0,1]. */
   std::array<std::vector<double>, 2> at(const dealii::Point<2> &reference) const;
 
   const unsigned int k, n_gauss;
-  std::vector<unsigned int> corners;         ///< marked
-  std::vector<dealii::Point<2>> points;      ///< in [0,1]^2
-  std::vector<double> weights;               ///< their sum is 4
-  std::array<std::vector<double>, 2> fields; ///< xi and eta component, n_fields x points
+  std::vector<unsigned int> corners;    ///< marked
+  std::vector<dealii::Point<2>> points; ///< in [0,1]^2
+  std::vector<double> weights;          ///< their sum is 4
+
+  /**
+   * Each component of a field is @p factor times one product: along its own direction N_i, (1 - x)/2 or (1 + x)/2, number @p x of these k + 2, along
+   * the other L_l. Products are counted by `x (k + 1) + l`. Factor 0: the component is zero.
+   */
+  struct Product
+  {
+    unsigned int number = 0;
+    double factor = 0;
+  };
+  std::array<std::vector<Product>, 2> products; ///< xi and eta component, by field
+
+  std::vector<double> own, other; ///< those functions at Gauss points, (k + 2) x n and (k + 1) x n
+
+  dealii::Quadrature<2> at_corners; ///< for what corner stresses have to do with polynomials
+  std::array<dealii::FullMatrix<double>, 2>
+      interpolation; ///< by direction: from Gauss points to these, points x n
+  std::vector<std::vector<std::array<double, 3>>> corner_stresses; ///< by corner and point
+
+private:
+  void set_products();
+  void set_corners(const dealii::QGauss<1> &gauss);
 };
 
 /** What a cell is to its rows of stress, besides its material: all in units of h. */
@@ -64,6 +83,17 @@ struct RowShape
 };
 
 class RowValues;
+
+/** A stress by its fields, row by row, and the amplitudes of its corner stresses; or derivatives by them. */
+struct RowFields
+{
+  explicit RowFields(const RowTable &table)
+      : fields(2 * table.n_fields()), corners(table.corners.size())
+  {
+  }
+
+  std::vector<double> fields, corners;
+};
 
 /**
  * Stresses s on a cell of any shape whose rows are fields of a RowTable by the contravariant map, `s_i = DF r_i/det DF`:
@@ -90,11 +120,11 @@ public:
   /** Moments `(d, z)` of divergences, (k+1)^2 of each row, with the motions of N: what N' r takes off. */
   std::array<double, 3> moments(const double *divergence) const;
 
-  /** Fields whose change makes an energy least that has these @p derivatives by all fields: 2 n_fields. */
-  std::vector<double> best_bubbles(const std::vector<double> &derivatives) const;
+  /** What makes an energy least that has these @p derivatives. */
+  RowFields best_bubbles(const RowFields &derivatives) const;
 
-  /** Of derivatives by all fields, 2 n_fields: those by tractions with the best bubbles, n_edges. */
-  std::vector<double> reduced(const std::vector<double> &derivatives) const;
+  /** Those of @p derivatives by tractions with the best bubbles, n_edges. */
+  std::vector<double> reduced(const RowFields &derivatives) const;
 
 private:
   void set_conditions(const RowShape &shape);
@@ -102,8 +132,8 @@ private:
   {
     return 2 * table.k * table.k + table.corners.size();
   }
-  std::vector<double> by_bubbles(const std::vector<double> &derivatives) const;
-  void add_corners(const RowShape &shape, const RowValues &values, std::vector<double> &columns);
+  std::vector<double> by_bubbles(const RowFields &derivatives) const;
+  void add_corners(const RowShape &shape);
   unsigned int n_edges() const
   {
     return 8 * (table.k + 1);
@@ -114,11 +144,13 @@ private:
       N; ///< of bubbles; L^-1 times bubbles x edges; edges x edges; edges x 3
   std::vector<double> N_divergence; ///< 2 (k+1)^2 x 3
 
-  /** Of each marked corner B S, S its stress and B = DF there, less what has its fluxes: by fields, 2 n_fields. */
-  std::vector<std::vector<double>> corners;
+  std::vector<RowFields> corners; ///< each corner's stress less what has its fluxes: bubbles, too
 };
 
-/** One cell at the points of its table: fields in energy, `(s, C^-1 s)^{1/2}` by its parts and `theta^{1/2} C_K (s_12 - s_21)`. */
+/**
+ * One cell: stresses in energy, `(s, C^-1 s)^{1/2}` by its parts and `theta^{1/2} C_K (s_12 - s_21)`, at the points of its table. A corner stress is
+ * known by its products with what is there, a polynomial through these points.
+ */
 class RowValues
 {
 public:
@@ -126,35 +158,70 @@ public:
 
   static constexpr unsigned int n_parts = 4; ///< the last is the antisymmetric one
 
-  /** Coefficients of all fields, row by row, in energy: n_parts x points are added to @p values. */
-  void add(const std::vector<double> &coefficients, std::vector<double> &values) const;
+  /** In energy at all points, n_parts x points, and corner stresses by their amplitudes. */
+  struct Stress
+  {
+    explicit Stress(const RowTable &table)
+        : values(n_parts * table.points.size()), corners(table.corners.size())
+    {
+    }
 
-  /** The transposed. */
-  std::vector<double> derivatives(const std::vector<double> &values) const;
+    std::vector<double> values, corners;
+  };
 
-  /** Subtracts `psi sigma` in energy at one point. */
+  void add(const RowFields &fields, Stress &stress) const;
+
+  RowFields derivatives(const Stress &stress) const; ///< of half its square by all fields
+
+  double square(const Stress &stress,
+                bool is_antisymmetric) const; ///< of the last part, or of the others
+
+  /** Subtracts `psi sigma` at one point. */
   void subtract(unsigned int q, const dealii::SymmetricTensor<2, 2> &sigma, double psi,
-                std::vector<double> &values) const;
+                Stress &stress) const;
 
-  /** The bubbles of the table, row by row: (n_parts points) x columns. */
-  std::vector<double> bubbles() const;
-
-  /** All edges in the order of TractionEnergy, likewise. */
-  std::vector<double> edges(const std::array<double, 4> &scale) const;
+  /**
+   * Products in energy of all bubbles of the table, row by row, of @p corners, and of all edges in the order of TractionEnergy times
+   * @p scale of their face: n x n.
+   */
+  std::vector<double> products(const std::vector<RowFields> &corners,
+                               const std::array<double, 4> &scale) const;
 
   const RowTable &table;
 
 private:
-  void append(unsigned int row, unsigned int first, unsigned int count, double factor,
-              std::vector<double> &columns) const;
+  /** A field of one row, times a factor. */
+  struct Column
+  {
+    unsigned int row, field;
+    double factor;
+  };
 
   /** [part][xi or eta component] of one row at one point. */
   using Frame = std::array<std::array<double, 2>, n_parts>;
 
+  std::array<Frame, 2> frames_at(const dealii::Tensor<2, 2> &J) const;
+  void set_corners(const RowShape &shape);
+  std::vector<Column> columns(const std::array<double, 4> &scale) const;
+  void add_products(const std::vector<Column> &columns, unsigned int stride, unsigned int n_corners,
+                    std::vector<double> &result) const;
+  std::vector<double> weight(unsigned int row, unsigned int d, unsigned int other_row,
+                             unsigned int e) const;
+  std::vector<double> at_points(const double *coefficients, unsigned int d) const;
+  void add_moments(const std::vector<double> &values, unsigned int d, double *result) const;
+
+  const double antisymmetry;                       ///< theta^{1/2} C_K
   std::array<std::vector<Frame>, 2> frames;        ///< by row and point
   std::array<std::array<double, 3>, 3> compliance; ///< L of C^-1 in xx, yy, xy
   std::vector<double> roots;                       ///< of weights times det DF/h^2
+  /** By corner: products of `B S`, B = DF there, with what is 1 at one point in one part: as Stress::values. */
+  std::vector<std::vector<double>> corner_moments;
+  /** Of two corner stresses, the last part and the others: corners x corners. */
+  std::array<std::vector<double>, 2> corner_products;
 };
+
+/** B of a corner's stress `B S`: s = B S DF'/det DF is symmetric where it is not zero, at the corner. */
+dealii::Tensor<2, 2> corner_frame(const RowShape &shape, unsigned int corner);
 } // namespace hpvi
 
 #endif
