@@ -16,24 +16,36 @@ unsigned int start(const unsigned int face) ///< first vertex
   return face < 2 ? face : 2 * (face - 2);
 }
 
-/** Numbers between which a polynomial on the unit cell is, of degree @p n in each variable, from Chebyshev points as EdgePolynomial::enclosure() is. */
-template <class Function>
-std::pair<double, double> enclosure(const unsigned int n, const Function &function)
+/**
+ * Numbers between which polynomials on the unit cell are, of degree @p n in each variable, from Chebyshev points as EdgePolynomial::enclosure()
+ * is; @p function has all of them at a point.
+ */
+template <std::size_t n_functions, class Function>
+std::array<std::pair<double, double>, n_functions> enclosures(const unsigned int n,
+                                                              const Function &function)
 {
-  const unsigned int m = 4 * n;
-  double least = function(Point<2>(0.5, 0.5)), largest = least;
+  const unsigned int m = 3 * n;
+  std::array<std::pair<double, double>, n_functions> result;
+  std::array<double, n_functions> values = function(Point<2>(0.5, 0.5));
+  for (unsigned int k = 0; k < n_functions; ++k)
+    result[k] = {values[k], values[k]};
+  const auto place = [m](const unsigned int i)
+  { return 0.5 - 0.5 * std::cos((i + 0.5) * numbers::PI / m); };
   for (unsigned int a = 0; a < m; ++a)
     for (unsigned int b = 0; b < m; ++b)
     {
-      const auto place = [m](const unsigned int i)
-      { return 0.5 - 0.5 * std::cos((i + 0.5) * numbers::PI / m); };
-      const double value = function(Point<2>(place(a), place(b)));
-      least = std::min(least, value);
-      largest = std::max(largest, value);
+      values = function(Point<2>(place(a), place(b)));
+      for (unsigned int k = 0; k < n_functions; ++k)
+        result[k] = {std::min(result[k].first, values[k]), std::max(result[k].second, values[k])};
     }
-  const double middle = (least + largest) / 2,
-               half = (largest - least) / 2 / std::pow(std::cos(numbers::PI / 8), 2);
-  return {middle - half, middle + half};
+  const double wider = 1 / std::pow(std::cos(numbers::PI / 6), 2);
+  for (auto &[low, high] : result)
+  {
+    const double middle = (low + high) / 2, half = wider * (high - low) / 2;
+    low = middle - half;
+    high = middle + half;
+  }
+  return result;
 }
 
 /** Of the map in each variable. */
@@ -108,17 +120,16 @@ double CellConstants::poincare() const
 {
   if (!map.is_curved())
     return diameter / numbers::PI;
-  const unsigned int n = degree_of(map);
-  const auto det =
-      enclosure(2 * n, [&](const Point<2> &x) { return determinant(map.jacobian(x)); });
+  const auto [det, xx, xy, yx, yy] = enclosures<5>(
+      2 * degree_of(map),
+      [&](const Point<2> &x)
+      {
+        const Tensor<2, 2> J = map.jacobian(x);
+        return std::array<double, 5>{{determinant(J), J[0][0], J[0][1], J[1][0], J[1][1]}};
+      });
   double norm = 0;
-  for (unsigned int i = 0; i < 2; ++i)
-    for (unsigned int j = 0; j < 2; ++j)
-    {
-      const auto [low, high] =
-          enclosure(n, [&](const Point<2> &x) { return map.jacobian(x)[i][j]; });
-      norm += std::pow(std::max(std::abs(low), std::abs(high)), 2);
-    }
+  for (const auto &[low, high] : {xx, xy, yx, yy})
+    norm += std::pow(std::max(std::abs(low), std::abs(high)), 2);
   return 1 / numbers::PI * std::sqrt(det.second / std::max(0., det.first) * norm);
 }
 
@@ -136,7 +147,10 @@ double CellConstants::antisymmetry(const Material &material) const
 double CellConstants::trace(const unsigned int face) const
 {
   if (map.is_curved())
-    return std::sqrt(2 * poincare() * (poincare() + outer) / inner[face]);
+  {
+    const double C = poincare();
+    return std::sqrt(2 * C * (C + outer) / inner[face]);
+  }
   const CellMap<2>::Vertices &v = map.vertices();
   const unsigned int a = start(face), step = face < 2 ? 1 : 2;
   if (map.is_affine())

@@ -20,6 +20,7 @@
 #include <hpvi/base/text.h>
 #include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/admissible_friction.h>
+#include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/contact_correction.h>
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/error_bound.h>
@@ -218,8 +219,14 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
     return "pressure is negative between the nodes of contact, by " + text(pressure.tension(), 2) +
            " of the largest, and cannot be made admissible";
   if (has_distorted_cells(solution))
+  {
     if (const std::string cut = cut_inside_cell(solution); !cut.empty())
       return cut;
+    for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+      if (!CellConstants(map_of<2>(cell)).is_star_shaped())
+        return "the cell at " + to_string(cell->center()) +
+               " is not star-shaped about its middle, and nothing is known of its rotations";
+  }
   if (solution.scene.has_plates() && has_long_cells(solution))
     return "cells are more than four times as long as wide, and a stress that is made in all of "
            "them at "

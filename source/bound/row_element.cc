@@ -123,7 +123,7 @@ std::array<std::vector<double>, 2> RowTable::at(const Point<2> &reference) const
 
 // @sect3{At points}
 RowValues::RowValues(const RowTable &table, const RowShape &shape)
-    : table(table), antisymmetry(std::sqrt(RowElement::theta) * shape.antisymmetry), compliance()
+    : table(table), antisymmetry(std::sqrt(theta) * shape.antisymmetry), compliance()
 {
   const HookesLaw<2> law(*shape.law);
   std::array<SymmetricTensor<2, 2>, 3> unit;
@@ -190,6 +190,9 @@ void RowValues::set_corners(const RowShape &shape)
   corner_moments.assign(n_corners, std::vector<double>(n_parts * n_points));
   corner_products.fill(std::vector<double>(n_corners * n_corners));
   std::vector<std::array<double, n_parts>> at_point(n_corners);
+  std::vector<Tensor<2, 2>> B;
+  for (const unsigned int corner : table.corners)
+    B.push_back(corner_frame(shape, corner));
   for (unsigned int q = 0; q < table.at_corners.size(); ++q)
   {
     const Tensor<2, 2> J = shape.map.jacobian(table.at_corners.point(q)) / (2 * shape.h);
@@ -198,13 +201,12 @@ void RowValues::set_corners(const RowShape &shape)
     for (unsigned int c = 0; c < n_corners; ++c)
     {
       const auto [xx, yy, xy] = table.corner_stresses[c][q];
-      const Tensor<2, 2> B = corner_frame(shape, table.corners[c]);
       for (unsigned int part = 0; part < n_parts; ++part)
       {
         at_point[c][part] = 0;
         for (unsigned int row = 0; row < 2; ++row)
-          at_point[c][part] += both[row][part][0] * (B[row][0] * xx + B[row][1] * xy) +
-                               both[row][part][1] * (B[row][0] * xy + B[row][1] * yy);
+          at_point[c][part] += both[row][part][0] * (B[c][row][0] * xx + B[c][row][1] * xy) +
+                               both[row][part][1] * (B[c][row][0] * xy + B[c][row][1] * yy);
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
             corner_moments[c][part * n_points + b * n + a] += weight * at_point[c][part] *
@@ -494,10 +496,10 @@ std::array<double, 4> over(const std::array<double, 4> &densities, const double 
 } // namespace
 
 RowElement::RowElement(const RowTable &table, const RowShape &shape)
-    : table(table), scale(over(shape.densities, shape.h))
+    : table(table), values(table, shape), scale(over(shape.densities, shape.h))
 {
   add_corners(shape);
-  const std::vector<double> H = RowValues(table, shape).products(corners, scale);
+  const std::vector<double> H = values.products(corners, scale);
   const unsigned int n = n_bubbles(), m = n_edges(), stride = n + m;
   for (unsigned int column = 0; column < stride; ++column)
   {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -52,9 +53,12 @@ unsigned int outer_corners(const DoFHandler<2>::active_cell_iterator &cell)
   return result;
 }
 
-double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
+/** h: its square is a quarter of the area of the quadrilateral. */
+double size_of(const CellMap<2> &map)
 {
-  return a[0] * b[1] - a[1] * b[0];
+  const CellMap<2>::Vertices &v = map.vertices();
+  const Tensor<1, 2> a = v[3] - v[0], b = v[2] - v[1];
+  return std::sqrt(std::abs(a[0] * b[1] - a[1] * b[0]) / 8);
 }
 
 /** A rotation about the centre of a cell. */
@@ -84,14 +88,16 @@ public:
         if (map.blends()[face])
           interpolate(solution, cell, face, v, points);
     }
+    for (const auto &[vertex, node, value] : on_edges)
+      nodal[vertex][node] = value;
   }
 
-  Tensor<1, 2> value(const unsigned int v, const Point<2> &reference) const ///< E
+  /** E at a point of a table of the cell's degree. */
+  Tensor<1, 2> value(const unsigned int v, const ShapeTable<2> &table, const unsigned int q) const
   {
-    const ShapeTable<2> table = tabulate<2>(degree, {reference}, {1.}, false);
-    Tensor<1, 2> result = at(v, reference);
+    Tensor<1, 2> result = at(v, table.points[q]);
     for (unsigned int i = 0; i < nodal[v].size(); ++i)
-      result -= table.values(0, i) * nodal[v][i];
+      result -= table.values(q, i) * nodal[v][i];
     return result;
   }
 
@@ -146,20 +152,39 @@ private:
       values.push_back(value * rotation(whole(s) - centre));
     }
     const auto basis = Polynomials::generate_complete_Lagrange_basis(rule.get_points());
+    const auto interpolated = [&](const double s)
+    {
+      Tensor<1, 2> result;
+      for (unsigned int i = 0; i <= p; ++i)
+        result += basis[i].value((s - begin) / length) * values[i];
+      return result;
+    };
+    // The vertex in the middle of an edge moves, and takes the straight edge with it that begins there, whatever its degree.
+    for (const unsigned int end : {0, 1})
+    {
+      const unsigned int vertex = GeometryInfo<2>::face_to_cell_vertices(face, end);
+      const Tensor<1, 2> change =
+          interpolated(end) - at(v, GeometryInfo<2>::unit_cell_vertex(vertex));
+      for (unsigned int n = 0; n < points.size(); ++n)
+        nodal[v][n] += Bilinear(vertex, points[n]).value * change;
+    }
     for (unsigned int n = 0; n < points.size(); ++n)
       if (points[n][face / 2] == double(face % 2))
-      {
-        const double s = (points[n][1 - face / 2] - begin) / length;
-        nodal[v][n] = Tensor<1, 2>();
-        for (unsigned int i = 0; i <= p; ++i)
-          nodal[v][n] += basis[i].value(s) * values[i];
-      }
+        on_edges.push_back({v, n, interpolated(points[n][1 - face / 2])});
   }
+
+  /** A node of psi of a vertex on a curved edge, and what it has there. */
+  struct EdgeNode
+  {
+    unsigned int vertex, node;
+    Tensor<1, 2> value;
+  };
 
   const CellMap<2> &map;
   const Point<2> centre;
   const unsigned int degree;
   std::array<std::vector<Tensor<1, 2>>, 4> nodal;
+  std::vector<EdgeNode> on_edges;
 };
 
 /** A field of force 0 and moment 1 about the centre in units of h: the rotation less its mean, by its Legendre coefficients. */
@@ -259,8 +284,7 @@ RowShape RowStresses::shape_of(const unsigned int index) const
   const VertexPatches::Cell &cell = patches.cells()[index];
   const Material &material = solution.scene.material_of(cell.iterator);
   RowShape result{cell.iterator->material_id(), &material, map_of<2>(cell.iterator), 0., {}, 0.};
-  const CellMap<2>::Vertices &v = result.map.vertices();
-  result.h = std::sqrt(std::abs(cross(v[3] - v[0], v[2] - v[1])) / 8);
+  result.h = size_of(result.map);
   for (unsigned int face = 0; face < 4; ++face)
     result.densities[face] =
         patches.edges()[cell.edges[face]].length / (cell.parts[face] < 2 ? 4 : 2);
@@ -372,9 +396,9 @@ void RowStresses::add_loads(const unsigned int index, OfVertices &result)
                 cell.divergence[(row * n + i) * n + j] += d[row] * L_x[i] * L_y[j];
             }
         if (beyond)
-          result.moment[v] += points.weight(q) * determinant(J) *
-                              (F * beyond->value(v, points.point(q)) +
-                               scalar_product(flux, beyond->slopes(v, table, q)));
+          result.moment[v] +=
+              points.weight(q) * determinant(J) *
+              (F * beyond->value(v, table, q) + scalar_product(flux, beyond->slopes(v, table, q)));
       }
     }
   };
@@ -384,10 +408,21 @@ void RowStresses::add_loads(const unsigned int index, OfVertices &result)
     add(solution.spaces->loads->initial_strain(iterator, p), false);
   for (unsigned int face = 0; beyond && face < 4; ++face)
     if (map.blends()[face] && iterator->at_boundary(face))
+    {
+      std::map<double, ShapeTable<2>> at; // of all four psi
       for (unsigned int v = 0; v < 4; ++v)
         result.moment[v] += boundary.work_of_loads(
             patches.cells()[index].edges[face],
-            [&](const double s) { return beyond->value(v, point_on_face<2>(face, Point<1>(s))); });
+            [&](const double s)
+            {
+              auto found = at.find(s);
+              if (found == at.end())
+                found = at.emplace(
+                              s, tabulate<2>(p, {point_on_face<2>(face, Point<1>(s))}, {1.}, false))
+                            .first;
+              return beyond->value(v, found->second, 0);
+            });
+    }
 }
 
 void RowStresses::set_cell(const unsigned int index)
@@ -395,28 +430,28 @@ void RowStresses::set_cell(const unsigned int index)
   Cell &cell = cells[index];
   const RowElement &element = *cell.element;
   const unsigned int n = element.table.k + 1;
-  const RowShape shape = shape_of(index);
-  cell.h = shape.h;
+  const CellMap<2> map = map_of<2>(patches.cells()[index].iterator);
+  cell.h = size_of(map);
   cell.divergence.assign(2 * n * n, 0.);
   OfVertices of_vertices;
   for (auto &divergence : of_vertices.divergence)
     divergence.assign(2 * n * n, 0.);
   add_stress(index, of_vertices);
   add_loads(index, of_vertices);
-  const RowValues values(element.table, shape);
+  const RowValues &values = element.values;
   const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(index);
   std::vector<double> moment;
-  if (shape.map.is_curved())
+  if (map.is_curved())
     moment = unit_moment(
-        element, shape.map, shape.h,
-        std::min(n, stiffness_points(shape.map, solution.displacement_space.degrees()[index])));
+        element, map, cell.h,
+        std::min(n, stiffness_points(map, solution.displacement_space.degrees()[index])));
   std::array<std::vector<double>, 4> gradients;
   std::array<std::array<double, 3>, 4> defects;
   for (unsigned int v = 0; v < 4; ++v)
   {
     std::vector<double> &divergence = of_vertices.divergence[v];
     for (unsigned int i = 0; i < moment.size(); ++i)
-      divergence[i] += of_vertices.moment[v] / (shape.h * shape.h) * moment[i];
+      divergence[i] += of_vertices.moment[v] / (cell.h * cell.h) * moment[i];
     RowFields fields(element.table);
     for (unsigned int row = 0; row < 2; ++row)
       std::copy(&divergence[row * n * n], &divergence[row * n * n] + n * n,
@@ -501,21 +536,21 @@ PatchCell RowStresses::patch_cell(const unsigned int index, const unsigned int h
 }
 
 /** s - sigma(u_N), and s by its fields. */
-RowValues::Stress RowStresses::residual(const unsigned int index, const RowValues &values,
+RowValues::Stress RowStresses::residual(const unsigned int index,
                                         const std::vector<double> &tractions,
                                         RowFields &fields) const
 {
   const Cell &cell = cells[index];
   const RowTable &table = cell.element->table;
+  const RowValues &values = cell.element->values;
   const unsigned int n = table.k + 1;
-  const RowShape shape = shape_of(index);
   for (unsigned int row = 0; row < 2; ++row)
   {
     double *const own = &fields.fields[row * table.n_fields()];
     for (unsigned int face = 0; face < 4; ++face)
       for (unsigned int i = 0; i < n; ++i)
         own[table.of_face(face) + i] =
-            shape.densities[face] / shape.h * tractions[(2 * face + row) * n + i];
+            cell.element->scale[face] * tractions[(2 * face + row) * n + i];
     std::copy(&cell.divergence[row * n * n], &cell.divergence[row * n * n] + n * n,
               own + table.of_divergence());
   }
@@ -536,11 +571,11 @@ RowStresses::Distance RowStresses::distance(const unsigned int index,
                                             const std::vector<double> &tractions) const
 {
   const Cell &cell = cells[index];
-  const RowValues values(cell.element->table, shape_of(index));
+  const RowValues &values = cell.element->values;
   RowFields fields(cell.element->table);
-  const RowValues::Stress missed = residual(index, values, tractions, fields);
+  const RowValues::Stress missed = residual(index, tractions, fields);
   return {cell.h * cell.h * values.square(missed, false),
-          cell.h * std::sqrt(values.square(missed, true) / RowElement::theta)};
+          cell.h * std::sqrt(values.square(missed, true) / RowValues::theta)};
 }
 
 Tensor<2, 2> RowStresses::value(const unsigned int index, const std::vector<double> &tractions,
@@ -549,7 +584,7 @@ Tensor<2, 2> RowStresses::value(const unsigned int index, const std::vector<doub
   const RowTable &table = cells[index].element->table;
   const RowShape shape = shape_of(index);
   RowFields fields(table);
-  residual(index, RowValues(table, shape), tractions, fields);
+  residual(index, tractions, fields);
   const std::array<std::vector<double>, 2> at = table.at(reference);
   Tensor<2, 2> flux;
   for (unsigned int row = 0; row < 2; ++row)

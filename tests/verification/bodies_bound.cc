@@ -104,8 +104,8 @@ Tensor<1, 2> traction(const EquilibratedStress &stress, const StressEdge &edge,
 {
   const double on_side = side.part == reversed_edge ? 1. - s : s;
   const Point<2> xi = point_on_face<2>(side.face, Point<1>(on_side));
-  if (stress.has_macro_cells())
-    return stress.macro_value(side.cell, xi) * edge.normal;
+  if (stress.has_rows())
+    return stress.value_of_rows(side.cell, xi) * edge.normal;
   const std::array<double, 3> c = stress.stress(side.cell).value(2 * xi[0] - 1, 2 * xi[1] - 1);
   Tensor<2, 2> S;
   S[0][0] = c[0];
@@ -147,7 +147,7 @@ TEST(JointBound, HasOneTractionForBothBodies)
           [&](const unsigned int face, const unsigned int end)
           { return pressure.part(face, end).coefficients(); },
           cache);
-      EXPECT_EQ(stress.has_macro_cells(), blocks.corners == skew.corners);
+      EXPECT_EQ(stress.has_rows(), blocks.corners == skew.corners);
       EXPECT_LT(stress.defect, 1e-10);
       double jump = 0, pull = -1, rub = 0, largest = 0;
       unsigned int n_joints = 0;

@@ -82,8 +82,6 @@ struct RowShape
   double antisymmetry; ///< C_K of CellConstants
 };
 
-class RowValues;
-
 /** A stress by its fields, row by row, and the amplitudes of its corner stresses; or derivatives by them. */
 struct RowFields
 {
@@ -96,58 +94,6 @@ struct RowFields
 };
 
 /**
- * Stresses s on a cell of any shape whose rows are fields of a RowTable by the contravariant map, `s_i = DF r_i/det DF`:
- *
- *     det DF div s_i = Div r_i,     (s n)_i ds = (r_i nu) dt,
- *
- * so that divergence and tractions are polynomials on the reference cell whatever F is (doc/bound.md). s need not be symmetric:
- * energies are those of its symmetric part, and `theta C_K^2 |s_12 - s_21|^2` beside them. Data belong to such a stress whose
- * antisymmetric part has mean zero if forces and moment are in balance: three conditions `N'r = 0`.
- */
-class RowElement
-{
-public:
-  /** @p table must outlive this object. */
-  RowElement(const RowTable &table, const RowShape &shape);
-
-  static constexpr unsigned int n_conditions = 3;
-  static constexpr double theta = 16;
-
-  const RowTable &table;
-
-  TractionEnergy energy() const;
-
-  /** Moments `(d, z)` of divergences, (k+1)^2 of each row, with the motions of N: what N' r takes off. */
-  std::array<double, 3> moments(const double *divergence) const;
-
-  /** What makes an energy least that has these @p derivatives. */
-  RowFields best_bubbles(const RowFields &derivatives) const;
-
-  /** Those of @p derivatives by tractions with the best bubbles, n_edges. */
-  std::vector<double> reduced(const RowFields &derivatives) const;
-
-private:
-  void set_conditions(const RowShape &shape);
-  unsigned int n_bubbles() const
-  {
-    return 2 * table.k * table.k + table.corners.size();
-  }
-  std::vector<double> by_bubbles(const RowFields &derivatives) const;
-  void add_corners(const RowShape &shape);
-  unsigned int n_edges() const
-  {
-    return 8 * (table.k + 1);
-  }
-
-  const std::array<double, 4> scale; ///< densities over h
-  std::vector<double> L, W, G,
-      N; ///< of bubbles; L^-1 times bubbles x edges; edges x edges; edges x 3
-  std::vector<double> N_divergence; ///< 2 (k+1)^2 x 3
-
-  std::vector<RowFields> corners; ///< each corner's stress less what has its fluxes: bubbles, too
-};
-
-/**
  * One cell: stresses in energy, `(s, C^-1 s)^{1/2}` by its parts and `theta^{1/2} C_K (s_12 - s_21)`, at the points of its table. A corner stress is
  * known by its products with what is there, a polynomial through these points.
  */
@@ -157,6 +103,7 @@ public:
   RowValues(const RowTable &table, const RowShape &shape);
 
   static constexpr unsigned int n_parts = 4; ///< the last is the antisymmetric one
+  static constexpr double theta = 16;
 
   /** In energy at all points, n_parts x points, and corner stresses by their amplitudes. */
   struct Stress
@@ -218,6 +165,58 @@ private:
   std::vector<std::vector<double>> corner_moments;
   /** Of two corner stresses, the last part and the others: corners x corners. */
   std::array<std::vector<double>, 2> corner_products;
+};
+
+/**
+ * Stresses s on a cell of any shape whose rows are fields of a RowTable by the contravariant map, `s_i = DF r_i/det DF`:
+ *
+ *     det DF div s_i = Div r_i,     (s n)_i ds = (r_i nu) dt,
+ *
+ * so that divergence and tractions are polynomials on the reference cell whatever F is (doc/bound.md). s need not be symmetric:
+ * energies are those of its symmetric part, and `theta C_K^2 |s_12 - s_21|^2` beside them. Data belong to such a stress whose
+ * antisymmetric part has mean zero if forces and moment are in balance: three conditions `N'r = 0`.
+ */
+class RowElement
+{
+public:
+  /** @p table must outlive this object. */
+  RowElement(const RowTable &table, const RowShape &shape);
+
+  static constexpr unsigned int n_conditions = 3;
+
+  const RowTable &table;
+  const RowValues values;
+  const std::array<double, 4> scale; ///< RowShape::densities over h
+
+  TractionEnergy energy() const;
+
+  /** Moments `(d, z)` of divergences, (k+1)^2 of each row, with the motions of N: what N' r takes off. */
+  std::array<double, 3> moments(const double *divergence) const;
+
+  /** What makes an energy least that has these @p derivatives. */
+  RowFields best_bubbles(const RowFields &derivatives) const;
+
+  /** Those of @p derivatives by tractions with the best bubbles, n_edges. */
+  std::vector<double> reduced(const RowFields &derivatives) const;
+
+private:
+  void set_conditions(const RowShape &shape);
+  unsigned int n_bubbles() const
+  {
+    return 2 * table.k * table.k + table.corners.size();
+  }
+  std::vector<double> by_bubbles(const RowFields &derivatives) const;
+  void add_corners(const RowShape &shape);
+  unsigned int n_edges() const
+  {
+    return 8 * (table.k + 1);
+  }
+
+  std::vector<double> L, W, G,
+      N; ///< of bubbles; L^-1 times bubbles x edges; edges x edges; edges x 3
+  std::vector<double> N_divergence; ///< 2 (k+1)^2 x 3
+
+  std::vector<RowFields> corners; ///< each corner's stress less what has its fluxes: bubbles, too
 };
 
 /** B of a corner's stress `B S`: s = B S DF'/det DF is symmetric where it is not zero, at the corner. */

@@ -62,8 +62,8 @@ private:
                                                    const ShapeTable<2> &table) const;
   void set_missed_force(unsigned int cell);
   std::vector<dealii::SymmetricTensor<2, 2>> stress_at_points(unsigned int cell) const;
-  RowValues::Stress residual(unsigned int cell, const RowValues &values,
-                             const std::vector<double> &tractions, RowFields &fields) const;
+  RowValues::Stress residual(unsigned int cell, const std::vector<double> &tractions,
+                             RowFields &fields) const;
 
   const Solution<2> &solution;
   const VertexPatches &patches;

@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Equilibrated stresses by rows, on cells that are no parallelograms and on curved ones.
+#include "discretisation.h"
+
+#include <hpvi/bound/cell_constants.h>
+#include <hpvi/bound/corner_stress.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/bound/row_element.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+using namespace verification;
+
+const Material material{2., 0.3, PlaneModel::strain};
+
+Overrides ring(const Overrides &others)
+{
+  return with({{"Geometry/Shape", "ring sector"},
+               {"Geometry/Radii", "1, 2"},
+               {"Geometry/Angles", "0, 90"},
+               {"Geometry/Subdivisions", "2, 2"},
+               {"Material/Young's modulus", "1"},
+               {"Material/Poisson's ratio", "0.3"},
+               {"Error/Bound on distorted cells", "true"}},
+              others);
+}
+
+/** Cells of all kinds: square, skew, distorted, small, and one of a ring with edges of degree 4. */
+std::vector<CellMap<2>> shapes()
+{
+  std::vector<CellMap<2>> result;
+  for (const CellMap<2>::Vertices &vertices : std::vector<CellMap<2>::Vertices>{
+           {{Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, 1)}},
+           {{Point<2>(1, 2), Point<2>(4, 2.2), Point<2>(1.3, 3.7), Point<2>(3.2, 4)}},
+           {{Point<2>(0, 0), Point<2>(0.1, -0.01), Point<2>(0.02, 0.3), Point<2>(0.09, 0.2)}}})
+    result.emplace_back(vertices);
+  const Scene<2> scene = scene_of(ring({{"Boundary start/Displacement", "0; 0"}}));
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  set_edge_degrees(mesh, std::vector<unsigned int>(mesh.n_active_cells(), 4));
+  result.push_back(map_of<2>(mesh.begin_active()));
+  EXPECT_TRUE(result.back().is_curved());
+  return result;
+}
+
+/** A cell with its element: data and values in the coordinates of the cell. */
+struct Cell
+{
+  Cell(const CellMap<2> &map, const unsigned int k, const unsigned int corners)
+      : map(map),
+        k(k), shape{0, &material, map, 0.7, {}, CellConstants(map).antisymmetry(material)},
+        table(k, k + 14, corners), element(table, with_densities(shape))
+  {
+  }
+
+  static RowShape &with_densities(RowShape &shape)
+  {
+    for (unsigned int face = 0; face < 4; ++face)
+      shape.densities[face] =
+          0.5 * shape.map.point(point_on_face<2>(face, Point<1>(0.)))
+                    .distance(shape.map.point(point_on_face<2>(face, Point<1>(1.))));
+    return shape;
+  }
+
+  /** s n |x'|/length, by rows, n towards growing xi or eta. */
+  Tensor<1, 2> density(const Tensor<2, 2> &s, const unsigned int face, const double at) const
+  {
+    const Point<2> xi = point_on_face<2>(face, Point<1>(at));
+    return (face % 2 ? 1. : -1.) * map.face_measure(face, xi) / (2 * shape.densities[face]) *
+           (s * map.normal(face, xi));
+  }
+
+  std::vector<double> tractions(const std::function<Tensor<2, 2>(const Point<2> &)> &stress) const
+  {
+    std::vector<double> result(8 * (k + 1));
+    const QGauss<1> gauss(k + 8);
+    for (unsigned int face = 0; face < 4; ++face)
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double s = gauss.point(q)[0];
+        const Tensor<1, 2> t =
+            density(stress(map.point(point_on_face<2>(face, Point<1>(s)))), face, s);
+        const std::vector<double> L = legendre::values(k + 1, 2 * s - 1);
+        for (unsigned int row = 0; row < 2; ++row)
+          for (unsigned int i = 0; i <= k; ++i)
+            result[(2 * face + row) * (k + 1) + i] += 2 * gauss.weight(q) * L[i] * t[row];
+      }
+    return result;
+  }
+
+  /** Coefficients of det DF div s. */
+  std::vector<double> divergence(const std::function<Tensor<1, 2>(const Point<2> &)> &f) const
+  {
+    const unsigned int n = k + 1;
+    std::vector<double> result(2 * n * n);
+    for (unsigned int q = 0; q < table.points.size(); ++q)
+    {
+      const Tensor<1, 2> value = determinant(map.jacobian(table.points[q])) / (4 * shape.h) *
+                                 f(map.point(table.points[q]));
+      const auto L_x = legendre::values(n, 2 * table.points[q][0] - 1),
+                 L_y = legendre::values(n, 2 * table.points[q][1] - 1);
+      for (unsigned int row = 0; row < 2; ++row)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            result[(row * n + i) * n + j] += table.weights[q] * value[row] * L_x[i] * L_y[j];
+    }
+    return result;
+  }
+
+  /** The stress with these data that is nearest to sigma. */
+  std::pair<RowFields, RowValues::Stress>
+  nearest(const std::vector<double> &tractions, const std::vector<double> &divergence,
+          const std::function<SymmetricTensor<2, 2>(const Point<2> &)> &sigma) const
+  {
+    RowFields fields(table);
+    const unsigned int n = k + 1;
+    for (unsigned int row = 0; row < 2; ++row)
+    {
+      for (unsigned int face = 0; face < 4; ++face)
+        for (unsigned int i = 0; i < n; ++i)
+          fields.fields[row * table.n_fields() + table.of_face(face) + i] =
+              element.scale[face] * tractions[(2 * face + row) * n + i];
+      for (unsigned int i = 0; i < n * n && !divergence.empty(); ++i)
+        fields.fields[row * table.n_fields() + table.of_divergence() + i] =
+            divergence[row * n * n + i];
+    }
+    RowValues::Stress difference(table);
+    element.values.add(fields, difference);
+    for (unsigned int q = 0; sigma && q < table.points.size(); ++q)
+      element.values.subtract(q, sigma(map.point(table.points[q])), 1., difference);
+    const RowFields change = element.best_bubbles(element.values.derivatives(difference));
+    element.values.add(change, difference);
+    for (unsigned int i = 0; i < change.fields.size(); ++i)
+      fields.fields[i] += change.fields[i];
+    return {fields, difference};
+  }
+
+  double defect(const std::vector<double> &tractions, const std::vector<double> &divergence) const
+  {
+    const TractionEnergy energy = element.energy();
+    const auto moments = element.moments(divergence.data());
+    double worst = 0;
+    for (unsigned int z = 0; z < 3; ++z)
+      worst = std::max(worst, std::abs(std::inner_product(tractions.begin(), tractions.end(),
+                                                          energy.N.entries + z * tractions.size(),
+                                                          -moments[z])));
+    return worst;
+  }
+
+  const CellMap<2> map;
+  const unsigned int k;
+  RowShape shape;
+  const RowTable table;
+  const RowElement element;
+};
+
+void for_each_cell(const std::function<void(const Cell &)> &check)
+{
+  for (const CellMap<2> &map : shapes())
+    for (const unsigned int k : {3U, 5U, 8U})
+      for (const unsigned int corners : {0U, 2U, 15U})
+      {
+        SCOPED_TRACE("degree " + std::to_string(k) + ", corners " + std::to_string(corners) +
+                     ", at " + in_digits(map.point({0.5, 0.5})[0]));
+        check(Cell(map, k, corners));
+      }
+}
+
+/** Of degree 2, where edges are curved constant. */
+Tensor<2, 2> polynomial(const Point<2> &x, const bool is_constant)
+{
+  Tensor<2, 2> s;
+  const double a = is_constant ? 0.3 : x[0], b = is_constant ? -0.7 : x[1];
+  s[0][0] = 1 + a * b - b * b;
+  s[1][1] = 2 * b - 0.5 - 3 * a * b;
+  s[0][1] = s[1][0] = 0.3 + 0.5 * a * a + 2 * a;
+  return s;
+}
+
+Tensor<1, 2> divergence_of_polynomial(const Point<2> &x, const bool is_constant)
+{
+  return is_constant ? Tensor<1, 2>() : Tensor<1, 2>({x[1], x[0] + 4. - 3. * x[0]});
+}
+
+TEST(RowElement, FindsAStressOfItsSpace)
+{
+  for_each_cell(
+      [](const Cell &cell)
+      {
+        const bool is_constant = cell.map.is_curved();
+        if (is_constant && cell.k < 4) // the edges' degree
+          return;
+        const auto stress = [&](const Point<2> &x) { return polynomial(x, is_constant); };
+        const std::vector<double> t = cell.tractions(stress),
+                                  d = cell.divergence(
+                                      [&](const Point<2> &x)
+                                      { return divergence_of_polynomial(x, is_constant); });
+        const auto [fields, difference] =
+            cell.nearest(t, d, [&](const Point<2> &x) { return SymmetricTensor<2, 2>(stress(x)); });
+        EXPECT_LE(cell.element.values.square(difference, false), 1e-22);
+        EXPECT_LE(cell.element.values.square(difference, true), 1e-22);
+        EXPECT_LE(cell.defect(t, d), 1e-12);
+      });
+}
+
+/** Any fluxes: what fields have on the faces is what they are counted by, and their divergence a constant. */
+TEST(RowTable, HasFluxesAndDivergences)
+{
+  const RowTable table(4, 9, 0);
+  for (unsigned int m = 0; m < table.n_fields(); ++m)
+  {
+    SCOPED_TRACE(m);
+    const auto flux = [&](const unsigned int face, const double s)
+    { return table.at(point_on_face<2>(face, Point<1>(s)))[face / 2][m]; };
+    for (unsigned int face = 0; face < 4; ++face)
+      for (const double s : {0.1, 0.45, 0.9})
+      {
+        const bool is_own = m >= table.of_face(face) && m < table.of_face(face) + 5;
+        EXPECT_NEAR(flux(face, s),
+                    is_own ? legendre::values(5, 2 * s - 1)[m - table.of_face(face)] : 0., 1e-13);
+      }
+    const Point<2> x(0.3, 0.6);
+    double divergence = 0;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const auto at = [&](const double step)
+      {
+        Point<2> y = x;
+        y[d] += step * 1e-3;
+        return table.at(y)[d][m];
+      };
+      divergence +=
+          (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / 12e-3 / 2; // [-1,1] is twice as long
+    }
+    double expected = 0;
+    if (m >= table.of_divergence() && m > table.of_divergence())
+      expected = legendre::values(5, 2 * x[0] - 1)[(m - table.of_divergence()) / 5] *
+                 legendre::values(5, 2 * x[1] - 1)[(m - table.of_divergence()) % 5];
+    for (unsigned int face = 0; face < 4; ++face)
+      if (m == table.of_face(face))
+        expected = (face % 2 ? 0.5 : -0.5) * std::sqrt(0.5);
+    EXPECT_NEAR(divergence, expected, 1e-8);
+  }
+}
+
+/** What patches know of a cell, t'G t with the best bubbles, is its energy; bubbles have no tractions and are orthogonal to what is best. */
+TEST(RowElement, HasLeastEnergy)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  for_each_cell(
+      [&](const Cell &cell)
+      {
+        const unsigned int n = 8 * (cell.k + 1);
+        std::vector<double> t(n), Gt(n);
+        for (double &value : t)
+          value = uniform(random);
+        const auto [fields, stress] = cell.nearest(t, {}, {});
+        multiply('N', 'N', n, 1, n, 1., cell.element.energy().G, {t.data(), n}, 0., Gt.data(), n);
+        const double energy = std::inner_product(t.begin(), t.end(), Gt.begin(), 0.),
+                     square = cell.element.values.square(stress, false) +
+                              cell.element.values.square(stress, true);
+        EXPECT_NEAR(square, energy, 1e-9 * energy);
+        const RowFields derivatives = cell.element.values.derivatives(stress);
+        const std::vector<double> gradient = cell.element.reduced(derivatives);
+        for (unsigned int i = 0; i < n; ++i)
+          EXPECT_NEAR(gradient[i], Gt[i], 1e-9 * std::sqrt(energy));
+      });
+}
+
+/** The stress of a corner and its bubbles, at points in the place of moments. */
+TEST(RowValues, KnowCornerStresses)
+{
+  const Cell cell(shapes()[1], 4, 2);
+  RowFields fields(cell.table);
+  fields.corners[0] = 1.;
+  for (unsigned int i = 0; i < fields.fields.size(); ++i)
+    fields.fields[i] = 0.1 * std::sin(1. + i);
+  RowValues::Stress known(cell.table), pure(cell.table);
+  cell.element.values.add(fields, known);
+  const double squares =
+      cell.element.values.square(known, false) + cell.element.values.square(known, true);
+  // twice half a square is the sum of derivatives times coefficients
+  const RowFields derivatives = cell.element.values.derivatives(known);
+  EXPECT_NEAR(std::inner_product(fields.fields.begin(), fields.fields.end(),
+                                 derivatives.fields.begin(), derivatives.corners[0]),
+              squares, 1e-10 * squares);
+  const Cell finer(cell.map, 4, 2);
+  const RowTable fine(4, 30, 2);
+  RowValues::Stress other(fine);
+  const RowValues values(fine, cell.shape);
+  values.add(fields, other);
+  EXPECT_NEAR(values.square(other, false), cell.element.values.square(known, false),
+              1e-10 * squares);
+  EXPECT_NEAR(values.square(other, true), cell.element.values.square(known, true), 1e-10 * squares);
+}
+
+/** Of a square the number is known; on each cell random q and v meet the inequality. */
+TEST(CellConstants, BoundWhatIsAntisymmetric)
+{
+  const std::vector<CellMap<2>> cells = shapes();
+  EXPECT_NEAR(CellConstants(cells[0]).antisymmetry(material) * std::sqrt(material.coercivity(2)),
+              std::sqrt(4 * (1 + std::sqrt(0.5)) - 0.5), 1e-12);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  const QGauss<2> rule(14);
+  for (const CellMap<2> &map : cells)
+  {
+    const double C = CellConstants(map).antisymmetry(material);
+    double largest = 0;
+    for (unsigned int round = 0; round < 200; ++round)
+    {
+      // v = (p, r) of degree 3 with random coefficients, q = omega(v) less its mean: the most that v gives
+      std::array<double, 20> c;
+      for (double &value : c)
+        value = uniform(random);
+      double area = 0, mean = 0, square = 0, energy = 0;
+      std::vector<std::pair<double, double>> omegas;
+      const HookesLaw<2> law(material);
+      const Point<2> centre = map.point({0.5, 0.5});
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const double w = rule.weight(q) * determinant(map.jacobian(rule.point(q)));
+        const Tensor<1, 2> x = (map.point(rule.point(q)) - centre) / map.longest_edge();
+        Tensor<2, 2> gradient;
+        for (unsigned int row = 0; row < 2; ++row)
+          for (unsigned int i = 0, k = 10 * row; i <= 3; ++i)
+            for (unsigned int j = 0; i + j <= 3; ++j, ++k)
+            {
+              gradient[row][0] += i > 0 ? c[k] * i * std::pow(x[0], i - 1) * std::pow(x[1], j) : 0.;
+              gradient[row][1] += j > 0 ? c[k] * j * std::pow(x[0], i) * std::pow(x[1], j - 1) : 0.;
+            }
+        const double omega = (gradient[1][0] - gradient[0][1]) / 2;
+        omegas.emplace_back(w, omega);
+        area += w;
+        mean += w * omega;
+        energy += w * law.energy_product(gradient);
+      }
+      for (const auto &[w, omega] : omegas)
+        square += w * std::pow(omega - mean / area, 2);
+      largest = std::max(largest, std::sqrt(square / energy));
+    }
+    EXPECT_LE(largest, C);
+    EXPECT_GE(largest, 0.05 * C); // it is no number that holds for anything
+  }
+}
+
+/** No more than sampled distances from the tangents, no less than sampled radii; a thin curved cell is not star-shaped. */
+TEST(CellConstants, AreOfStarShapedCells)
+{
+  const Scene<2> thin = scene_of(ring({{"Geometry/Radii", "1, 1.02"},
+                                       {"Geometry/Subdivisions", "1, 1"},
+                                       {"Boundary start/Displacement", "0; 0"}}));
+  Triangulation<2> mesh;
+  make_mesh(thin, mesh);
+  set_edge_degrees(mesh, {8});
+  EXPECT_FALSE(CellConstants(map_of<2>(mesh.begin_active())).is_star_shaped());
+  EXPECT_TRUE(CellConstants(shapes().back()).is_star_shaped());
+}
+
+Scene<2> distorted(const Overrides &overrides)
+{
+  return shipped_scene("stick-slip",
+                       with({{"Geometry/Shape", "quadrilateral"},
+                             {"Geometry/Corners", "-1, 0; 1, 0; 0.8, 1.1; -1.1, 0.8"}},
+                            overrides));
+}
+
+TEST(RowStresses, BoundTheTrueError)
+{
+  for (const std::string method : {"hup2", "hap4", "hpa3"})
+  {
+    SCOPED_TRACE(method);
+    const Scene<2> scene =
+        distorted({{"Adaptivity/Method", method}, {"Adaptivity/Maximum unknowns", "1000"}});
+    ASSERT_FALSE(scene.geometry.has_affine_cells());
+    const auto tables = std::make_shared<const ShapeTables<2>>();
+    CondensedElements<2> elements(scene, *tables);
+    ErrorBounds bounds;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          const ErrorBound bound = bounds.compute(
+              step.solution(), Discretisation<2>(scene, step.solution().spaces, elements));
+          EXPECT_GE(bound.total, step.errors.energy);
+          EXPECT_LE(bound.total, 2 * step.errors.energy);
+          EXPECT_LE(bound.imbalance, 1e-13);
+        });
+  }
+}
+
+/** Lame's ring under pressure: J(u_N) - J(u) is half the square of the error, up to what the polynomial body differs from the ring. */
+TEST(RowStresses, BoundTheErrorOfLamesRing)
+{
+  const double A = 1 / 3., u_1 = 1.3 * (0.4 * A + 4 * A), J = -u_1 * numbers::PI / 4;
+  const Scene<2> scene = scene_of(ring({{"Geometry/Subdivisions", "1, 2"},
+                                        {"Boundary start/Symmetry", "true"},
+                                        {"Boundary end/Symmetry", "true"},
+                                        {"Boundary inner/Pressure", "1"},
+                                        {"Adaptivity/Method", "pu"},
+                                        {"Adaptivity/Start degree", "2"},
+                                        {"Adaptivity/Maximum steps", "7"}}));
+  const std::vector<double> most{1.25, 1.15, 1.05, 1.03, 1.03, 1.03, 1.03};
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        ASSERT_TRUE(step.bound) << step.no_bound;
+        const double error = std::sqrt(2 * (step.energies.energy - J));
+        EXPECT_GE(step.bound->total, error) << step.number;
+        EXPECT_LE(step.bound->total, most[step.number - 1] * error) << step.number;
+        EXPECT_LE(step.bound->imbalance, 1e-13);
+        EXPECT_EQ(step.no_intervals, "curved edges change with the degrees of their cells");
+      });
+}
+
+/** A stress with all that tests ask of it, on a mesh bisected and raised at random. */
+struct Admissible
+{
+  Admissible(const Overrides &overrides, const unsigned int seed)
+      : scene(scene_of(overrides)), mesh(scene, seed, 2, 2, 6), lab(scene, mesh),
+        solution(lab.solve()),
+        stress(
+            solution, [](unsigned int, unsigned int) { return std::vector<double>(); }, {}, cache)
+  {
+  }
+
+  /** The density along an edge, from one of its sides. */
+  Tensor<1, 2> traction(const StressEdge &edge, const StressEdge::Side &side, const double s)
+  {
+    const double on_side = side.part == whole_edge ? s : 2 * s - side.part;
+    const Point<2> xi = point_on_face<2>(side.face, Point<1>(on_side));
+    const CellMap<2> map = map_of<2>(stress.patches().cells()[side.cell].iterator);
+    const Tensor<2, 2> value = stress.value_of_rows(side.cell, xi);
+    largest = std::max(largest, value.norm());
+    const double turn = stress.patches().cells()[side.cell].turns[side.face] *
+                        (side.face % 2 ? 1. : -1.) * (side.part == whole_edge ? 1. : 2.);
+    return turn * map.face_measure(side.face, xi) / edge.length *
+           (value * map.normal(side.face, xi));
+  }
+
+  const Scene<2> scene;
+  const RandomMesh mesh;
+  const Laboratory lab;
+  const Solution<2> solution;
+  EquilibrationCache cache;
+  const EquilibratedStress stress;
+  double largest = 0;
+};
+
+const Overrides loaded_block = {{"Geometry/Shape", "quadrilateral"},
+                                {"Geometry/Corners", "0, 0; 4, 0; 3.2, 4.5; 0.6, 3.4"},
+                                {"Geometry/Subdivisions", "2, 2"},
+                                {"Material/Young's modulus", "15"},
+                                {"Material/Plane", "stress"},
+                                {"Body force/Expression", "x; 1 - 2*y"},
+                                {"Boundary left/Traction", "1.5*(5 - y); -0.75"},
+                                {"Boundary top/Displacement", "0; free"},
+                                {"Boundary right/Displacement", "0; 0"}};
+
+/** With hanging nodes and mixed degrees: tractions of neighbours agree, those prescribed are met, along curves by their density. */
+TEST(RowStresses, AreAdmissible)
+{
+  const Overrides loaded_ring = ring({{"Boundary inner/Traction", "x*y; 1 - y"},
+                                      {"Boundary end/Displacement", "free; 0"},
+                                      {"Boundary start/Displacement", "0; 0"}});
+  for (const auto &[overrides, seed] : std::vector<std::pair<Overrides, unsigned int>>{
+           {loaded_block, 5}, {loaded_ring, 5}, {loaded_ring, 9}, {loaded_ring, 10}})
+  {
+    SCOPED_TRACE(seed);
+    Admissible of(overrides, seed);
+    const EquilibratedStress &stress = of.stress;
+    ASSERT_TRUE(stress.has_rows());
+    double jump = 0, neumann = 0;
+    for (const StressEdge &edge : stress.patches().edges())
+      for (const double s : {0.03, 0.27, 0.61, 0.88})
+      {
+        const Tensor<1, 2> t = of.traction(edge, edge.sides[0], s);
+        for (unsigned int k = 1; k < edge.sides.size(); ++k)
+          if (edge.sides[k].part == whole_edge || edge.sides[k].part == (s > 0.5))
+            jump = std::max(jump, (t - of.traction(edge, edge.sides[k], s)).norm());
+        const unsigned int index = &edge - stress.patches().edges().data();
+        for (unsigned int c = 0; edge.at_boundary() && !edge.is_curved && c < 2; ++c)
+          if (!edge.components[c].is_unknown)
+            neumann = std::max(neumann, std::abs((t - stress.prescribed().value(index, s)) *
+                                                 edge.components[c].direction));
+      }
+    EXPECT_LE(stress.defect, 1e-11);
+    EXPECT_LE(jump, 1e-10 * of.largest);
+    EXPECT_LE(neumann, 1e-10 * of.largest);
+  }
+}
+
+/**
+ * int s : grad v = 0 without loads, for v of degree up to 5 in x and y that vanish where displacements are prescribed: what is not symmetric
+ * in s is all that its symmetric part misses.
+ */
+TEST(RowStresses, MeetTheResidualIdentity)
+{
+  const QGauss<2> gauss(12);
+  const Quadrature<2> to_corners = corner_quadrature({0, 1, 2, 3}, 12);
+  for (const unsigned int seed : {1U, 3U, 8U})
+  {
+    SCOPED_TRACE(seed);
+    const Admissible of(ring({{"Boundary start/Displacement", "0.1*x; 0.2"},
+                              {"Boundary end/Displacement", "0; 0.3*y"}}),
+                        seed);
+    double absolute = 0;
+    std::array<double, 8> works{};
+    for (const auto &cell : of.stress.patches().cells())
+    {
+      const CellMap<2> map = map_of<2>(cell.iterator);
+      const bool is_at_corner = (cell.iterator->at_boundary(0) || cell.iterator->at_boundary(1)) &&
+                                (cell.iterator->at_boundary(2) || cell.iterator->at_boundary(3));
+      const Quadrature<2> &rule = is_at_corner ? to_corners : gauss;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const double w = rule.weight(q) * determinant(map.jacobian(rule.point(q)));
+        const Tensor<2, 2> s =
+            of.stress.value_of_rows(cell.iterator->active_cell_index(), rule.point(q));
+        const Point<2> x = map.point(rule.point(q));
+        unsigned int k = 0;
+        for (const auto &[i, j] :
+             {std::pair(1, 1), std::pair(2, 1), std::pair(1, 3), std::pair(3, 2)})
+        {
+          const Tensor<1, 2> slope({i * std::pow(x[0], i - 1) * std::pow(x[1], j),
+                                    j * std::pow(x[0], i) * std::pow(x[1], j - 1)});
+          for (unsigned int row = 0; row < 2; ++row, ++k)
+            works[k] += w * (s[row] * slope);
+          absolute += w * s.norm() * slope.norm();
+        }
+      }
+    }
+    for (const double work : works)
+      EXPECT_LE(std::abs(work), 1e-10 * absolute);
+  }
+}
+} // namespace
