@@ -39,7 +39,7 @@ EVALUATIONS = {
     "source/plane/initial_stress.cc": 3, "source/plane/missed_loads.cc": 1,
     "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 3,
     "source/bound/data_error.cc": 3, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":
-    1, "source/bound/macro_stresses.cc": 2, "source/results/contact_residuals.cc": 1,
+    1, "source/bound/row_stresses.cc": 4, "source/results/contact_residuals.cc": 1,
     "source/results/contact_state.cc": 2, "source/results/elastic_strain.cc": 1,
     "source/results/residual_estimator.cc": 4, "source/results/true_error.cc": 3, "source/results/unseen_contact.cc":
     2, "source/bound/open_contact.cc": 1, "source/bound/stress_work.cc": 1, "source/bound/test_motion.cc": 1,

@@ -91,7 +91,7 @@ try
              {"Example 5.2", "han-6-12", "0, 0; 4, 0; 4, 4"},
              {"Stick-slip", "stick-slip", "-1, 0; 1, 0; 1, 1"}})
       for (const std::string moved : {"", "000001"})
-        run(name + (moved.empty() ? " rectangles " : " macro ") + method, scene,
+        run(name + (moved.empty() ? " rectangles " : " rows ") + method, scene,
             with(settings,
                  {{"Geometry/Shape", "quadrilateral"},
                   {"Geometry/Corners", corners + (scene == "han-6-12" ? "; 0, 4" : "; -1, 1") +

@@ -26,7 +26,7 @@ struct InitialModes
 };
 
 /**
- * What MacroStresses has for macro cells, for cells that are all parallelograms: the stresses near sigma(u_N) and near
+ * What RowStresses has for cells of any shape, for cells that are all parallelograms: the stresses near sigma(u_N) and near
  * its products with hat functions, which are polynomials here.
  */
 class ParallelogramStresses
