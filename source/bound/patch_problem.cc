@@ -187,7 +187,8 @@ std::vector<unsigned int> PatchProblem::independent_conditions(const PatchFactor
   return PivotedCholesky(m, S, dependent).order;
 }
 
-bool PatchProblem::choose(const std::vector<unsigned int> &places, PatchFactor &factor) const
+bool PatchProblem::choose(const std::vector<unsigned int> &places, PatchFactor &factor,
+                          const double least_pivot) const
 {
   const unsigned int rank = places.size();
   factor.chosen = places;
@@ -212,7 +213,7 @@ bool PatchProblem::choose(const std::vector<unsigned int> &places, PatchFactor &
     least = i == 0 ? pivot : std::min(least, pivot);
     largest = std::max(largest, pivot);
   }
-  return least * least > 0.1 * dependent * largest * largest;
+  return least * least > least_pivot * largest * largest;
 }
 
 void PatchProblem::set_matrices(PatchFactor &factor)
@@ -235,7 +236,7 @@ void PatchProblem::set_matrices(PatchFactor &factor)
 void PatchProblem::renew(std::vector<unsigned int> &places, PatchFactor &factor) const
 {
   places = independent_conditions(factor);
-  require_regular(choose(places, factor), tractions);
+  require_regular(choose(places, factor, 0.1 * dependent), tractions);
 }
 
 /** g := gradient of the energy where unknown tractions vanish, right := what N'B x has to be. */

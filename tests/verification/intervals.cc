@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace
 {
@@ -123,15 +124,17 @@ TEST(Intervals, HaveTheRadiusOfTheTheorem)
                 b_square +=
                     std::pow(std::sqrt(std::max(0., bound.moved[cell])) + bound.lifted[cell], 2);
               }
-              const double eta = bound.stress, O = bound.oscillation, b = std::sqrt(b_square),
-                           two_gaps = bound.slip * bound.slip - w_square;
-              EXPECT_GT(b, 0);
+              const double O = bound.oscillation, two_gaps = bound.slip * bound.slip - w_square,
+                           A_square =
+                               std::accumulate(bound.squares.begin(), bound.squares.end(), 0.) -
+                               bound.slip * bound.slip;
+              EXPECT_GT(b_square, 0);
+              EXPECT_GT(A_square, bound.stress * bound.stress); // with the oscillation
               const auto radius = [&](const double theta)
               {
                 const double a = 1 - theta;
-                return theta * O + std::sqrt(a * a * eta * eta + a * two_gaps +
-                                             a * a * b_square / (1 - 2 * theta) +
-                                             2 * a * O * (bound.total + b));
+                return theta * O + std::sqrt(a * a * A_square + a * two_gaps +
+                                             a * a * b_square / (1 - 2 * theta));
               };
               EXPECT_NEAR(bound.radius, radius(bound.theta), 1e-6 * bound.total);
               for (double theta = 0; theta < 0.5; theta += 0.01)

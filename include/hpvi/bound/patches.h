@@ -38,8 +38,10 @@ public:
   /** Places of as many conditions as `C'H^-1 C` has rank: patches have motions and corners in common. */
   std::vector<unsigned int> independent_conditions(const PatchFactor &factor) const;
 
-  /** `W = L^-1 C` of some conditions and the factor of W'W; false: they depend on one another. */
-  bool choose(const std::vector<unsigned int> &places, PatchFactor &factor) const;
+  /** `W = L^-1 C` of some conditions and the factor of W'W; false: they nearly depend on one another. @p least_pivot: of W'W, over the largest. */
+  bool choose(const std::vector<unsigned int> &places, PatchFactor &factor,
+              double least_pivot = poor_pivot) const;
+  static constexpr double poor_pivot = 1e-7; ///< of conditions that another patch has chosen
 
   void renew(std::vector<unsigned int> &places,
              PatchFactor &factor) const; ///< chooses those that are independent
