@@ -82,13 +82,20 @@ void FileFormat::reject(const std::string &file, const std::string &what) const
   throw InputError(printable(file) + ": " + what + "; " + remedy);
 }
 
+std::string content_of(const std::filesystem::path &file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return content.str();
+}
+
 namespace
 {
 /** Of the content of a file; "missing" where there is none. */
 std::string fingerprint(const std::string &file)
 {
-  std::ifstream in(file, std::ios::binary);
-  return in ? "content " + checksum({std::istreambuf_iterator<char>(in), {}}) : "missing";
+  return std::ifstream(file) ? "content " + checksum(content_of(file)) : "missing";
 }
 
 /** Of a file that a scene reads counts what is in it, not where it lies. */

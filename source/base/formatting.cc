@@ -3,7 +3,10 @@
 #include <hpvi/base/text.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdint>
+#include <cstdlib>
 
 namespace hpvi
 {
@@ -24,6 +27,11 @@ std::string text(const double value, const int digits)
 std::string text(const unsigned int value)
 {
   return std::to_string(value);
+}
+
+double rounded(const double value, const int digits)
+{
+  return std::strtod(text(value, digits).c_str(), nullptr);
 }
 
 namespace
@@ -88,5 +96,44 @@ std::string xml_text(const std::string &content)
       result += c;
     }
   return result;
+}
+
+namespace
+{
+constexpr std::string_view base64_digits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+} // namespace
+
+std::string base64(const std::string &bytes)
+{
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  for (std::size_t k = 0, at = 0; k < bytes.size(); k += 3, at += 4)
+  {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - k);
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      word = word << 8 | (i < n ? static_cast<unsigned char>(bytes[k + i]) : 0U);
+    for (std::size_t i = 0; i <= n; ++i)
+      text[at + i] = base64_digits[word >> (18 - 6 * i) & 63];
+  }
+  return text;
+}
+
+std::string from_base64(const std::string_view text)
+{
+  std::array<unsigned char, 256> value{};
+  for (unsigned char k = 0; k < 64; ++k)
+    value[static_cast<unsigned char>(base64_digits[k])] = k;
+  std::string bytes(text.size() / 4 * 3, '\0');
+  const auto *in = reinterpret_cast<const unsigned char *>(text.data());
+  for (std::size_t k = 0; k < bytes.size(); k += 3, in += 4)
+  {
+    const unsigned int word =
+        value[in[0]] << 18 | value[in[1]] << 12 | value[in[2]] << 6 | value[in[3]];
+    bytes[k] = static_cast<char>(word >> 16);
+    bytes[k + 1] = static_cast<char>(word >> 8);
+    bytes[k + 2] = static_cast<char>(word);
+  }
+  return bytes;
 }
 } // namespace hpvi

@@ -2,40 +2,26 @@
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/version.h>
 #include <hpvi/output/complete_run.h>
+#include <hpvi/output/run_files.h>
 #include <hpvi/reader/scene_reader.h>
 
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS // as the parser still does; silences its note
-#include <boost/property_tree/json_parser.hpp>
-
 #include <algorithm>
-#include <fstream>
 
 namespace hpvi
 {
 namespace
 {
-/** Empty where there is none, or it is no JSON. */
-boost::property_tree::ptree summary_in(const std::filesystem::path &directory)
+JsonTree summary_in(const std::filesystem::path &directory)
 {
-  std::ifstream file(directory / "summary.json");
-  boost::property_tree::ptree summary;
-  try
-  {
-    boost::property_tree::read_json(file, summary);
-  }
-  catch (const boost::property_tree::ptree_error &)
-  {
-    return {};
-  }
-  return summary;
+  return json_tree(content_of(directory / "summary.json")).value_or(JsonTree());
 }
 } // namespace
 
 bool is_complete_run(const std::filesystem::path &directory)
 {
-  const boost::property_tree::ptree summary = summary_in(directory);
-  return summary.get<std::string>("status", "") == "done" &&
-         summary.get<std::string>("program", "") == "hpvi " + version();
+  const JsonTree summary = summary_in(directory);
+  return words_of(summary, "status") == "done" &&
+         words_of(summary, "program") == "hpvi " + version();
 }
 
 template <int dim>
@@ -52,9 +38,9 @@ std::vector<std::string> input_files_of(const Scene<dim> &scene)
 
 std::vector<std::string> input_files_of(const std::filesystem::path &directory)
 {
-  const boost::property_tree::ptree summary = summary_in(directory);
+  const JsonTree summary = summary_in(directory);
   std::vector<std::string> result;
-  if (const auto files = summary.get_child_optional("input_files"))
+  if (const JsonTree *const files = member(summary, "input_files"))
     for (const auto &file : *files)
       result.push_back(file.second.data());
   return result;

@@ -27,9 +27,8 @@ std::vector<Spot> spots_of(const std::vector<Record> &contact)
   std::vector<Spot> spots;
   for (const Record &row : contact)
   {
-    const auto field = [&](const char *const column)
-    { return number(value_of(row, column)).value_or(0); };
-    const std::string state = value_of(row, "state");
+    const auto field = [&](const char *const column) { return number_of(row, column).value_or(0); };
+    const std::string state = words_of(row, "state");
     spots.push_back({{{field("x"), field("y"), field("z")}},
                      -field("normal_traction"),
                      static_cast<unsigned char>(state == "open"   ? 0

@@ -187,14 +187,14 @@ std::string json_zone(const ContactZone<dim> &zone)
 {
   return "{\"state\": " + json_string(mode_name(zone.mode)) +
          ", \"from\": " + json_point<dim>(zone.begin) + ", \"to\": " + json_point<dim>(zone.end) +
-         ", \"length\": " + json_number(zone.length) + "}";
+         ", \"length\": " + json_value(zone.length) + "}";
 }
 
 /** "at" is null where the value is zero. */
 template <int dim>
 std::string json_extreme(const std::string &name, const double value, const Point<dim> &x)
 {
-  return ",\n      " + json_string(name) + ": " + json_number(value) + ", " +
+  return ",\n      " + json_string(name) + ": " + json_value(value) + ", " +
          json_string(name + "_at") + ": " + (value > 0 ? json_point<dim>(x) : "null");
 }
 
@@ -206,22 +206,18 @@ std::string json(const std::vector<StressSingularity<dim>> &unbounded)
   for (const StressSingularity<dim> &stress : unbounded)
     list += (list.empty() ? "\n        " : ",\n        ") +
             ("{\"at\": " + json_point<dim>(stress.where)) +
-            ", \"value\": " + json_number(stress.peak.value) +
+            ", \"value\": " + json_value(stress.peak.value) +
             (stress.peak.boundary == numbers::invalid_boundary_id
                  ? ""
-                 : ", \"within\": " + json_number(stress.within) +
-                       ", \"force\": " + json_number(stress.force)) +
-            ", \"beyond\": " + json_number(stress.beyond) +
-            ", \"largest\": " + json_number(stress.largest) + ", \"largest_at\": " +
+                 : ", \"within\": " + json_value(stress.within) +
+                       ", \"force\": " + json_value(stress.force)) +
+            ", \"beyond\": " + json_value(stress.beyond) +
+            ", \"largest\": " + json_value(stress.largest) + ", \"largest_at\": " +
             (stress.largest > 0 ? json_point<dim>(stress.largest_point) : "null") + "}";
   return "[" + list + (list.empty() ? "]" : "\n      ]");
 }
 
-/** A number or a vector. */
-std::string json_value(const double value)
-{
-  return json_number(value);
-}
+using hpvi::json_value;
 
 std::string json_value(const Tensor<1, 3> &value)
 {
@@ -252,7 +248,7 @@ std::string json_zones(const ContactState<dim> &state)
   std::string zones;
   for (const ContactZone<dim> &zone : state.zones)
     zones += (zones.empty() ? "\n        " : ",\n        ") + json_zone(zone);
-  return ",\n      \"length\": " + json_number(state.area) + ",\n      \"zones\": [" + zones +
+  return ",\n      \"length\": " + json_value(state.area) + ",\n      \"zones\": [" + zones +
          "\n      ]";
 }
 
@@ -264,15 +260,15 @@ std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
   const BoundaryForce<dim> &force = force_of(equilibrium, scene.boundaries[state.boundary].name);
   return json_string(force.boundary) + ": {\n      \"force\": " + json_point<dim>(force.force) +
          json_acting(force, equilibrium, state) +
-         ",\n      \"normal_resultant\": " + json_number(state.normal_resultant) +
+         ",\n      \"normal_resultant\": " + json_value(state.normal_resultant) +
          ",\n      \"friction_resultant\": " + json_value(state.friction_resultant) +
          json_extreme("largest_pressure", state.highest_pressure, state.highest_pressure_point) +
          ",\n      \"unbounded_pressure\": " + json(unbounded) +
          json_extreme("largest_penetration", state.deepest_penetration,
                       state.deepest_penetration_point) +
-         json_zones(state) + ",\n      \"area\": " + json_number(state.area) +
-         ",\n      \"open_area\": " + json_number(state.open_area) +
-         ",\n      \"slipping_area\": " + json_number(state.slipping_area) + "\n    }";
+         json_zones(state) + ",\n      \"area\": " + json_value(state.area) +
+         ",\n      \"open_area\": " + json_value(state.open_area) +
+         ",\n      \"slipping_area\": " + json_value(state.slipping_area) + "\n    }";
 }
 } // namespace
 
@@ -281,7 +277,7 @@ std::string json_point(const Tensor<1, dim> &x)
 {
   std::string list;
   for (unsigned int d = 0; d < dim; ++d)
-    list += (d > 0 ? ", " : "") + json_number(x[d]);
+    list += (d > 0 ? ", " : "") + json_value(x[d]);
   return "[" + list + "]";
 }
 
@@ -349,7 +345,7 @@ std::string von_mises_json(const std::vector<StressSample<dim>> &extrema,
   const auto largest =
       std::find_if(extrema.begin(), extrema.end(),
                    [](const auto &peak) { return peak.boundary == numbers::invalid_boundary_id; });
-  return "{\n    \"largest\": " + json_number(largest->value) +
+  return "{\n    \"largest\": " + json_value(largest->value) +
          ",\n    \"at\": " + json_point<dim>(largest->where) +
          ",\n    \"unbounded\": " + json(on(numbers::invalid_boundary_id, unbounded)) + "\n  }";
 }
@@ -379,10 +375,10 @@ std::string balance_json(const Equilibrium<dim> &equilibrium)
   std::string all;
   for (const auto &[name, force, moment] : equilibrium.bodies)
     all += (all.empty() ? ",\n    \"bodies\": {\n      " : ",\n      ") + json_string(name) +
-           ": {\"force\": " + json_number(force) + ", \"moment\": " + json_number(moment) + "}";
+           ": {\"force\": " + json_value(force) + ", \"moment\": " + json_value(moment) + "}";
   all += all.empty() ? "" : "\n    }";
-  return "{\n    \"force\": " + json_number(equilibrium.force_imbalance) +
-         ",\n    \"moment\": " + json_number(equilibrium.moment_imbalance) +
+  return "{\n    \"force\": " + json_value(equilibrium.force_imbalance) +
+         ",\n    \"moment\": " + json_value(equilibrium.moment_imbalance) +
          ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + all + "\n  }";
 }
 
@@ -408,7 +404,7 @@ std::string loads_json(const std::optional<LoadSum> &loads)
   if (!loads)
     return "null";
   return "{\n    \"force\": " + json_point<2>(loads->force) +
-         ",\n    \"moment\": " + json_number(loads->moment) +
+         ",\n    \"moment\": " + json_value(loads->moment) +
          ",\n    \"about\": " + json_point<2>(loads->centre) + "\n  }";
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/formatting.h>
 #include <hpvi/output/contact_table.h>
-#include <hpvi/output/record.h>
 
 namespace hpvi
 {
@@ -12,13 +10,13 @@ namespace
 /** A vector along the contact: in the plane one number, in space its components. */
 void add(Record &record, const std::string &name, const double value)
 {
-  record.emplace_back(name, text(value));
+  record.emplace_back(name, value);
 }
 
 void add(Record &record, const std::string &name, const Tensor<1, 3> &vector)
 {
   for (unsigned int d = 0; d < 3; ++d)
-    record.emplace_back(name + '_' + "xyz"[d], text(vector[d]));
+    record.emplace_back(name + '_' + "xyz"[d], vector[d]);
 }
 
 /** Of two bodies the side without multipliers; of a foundation nothing. */
@@ -38,38 +36,39 @@ Record row(const ContactPoint<dim> &point, const ContactState<dim> &state, const
   const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
   Record record;
   for (unsigned int d = 0; d < dim; ++d)
-    record.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
-  record.emplace_back("normal_displacement", text(point.normal_displacement));
+    record.emplace_back(std::string(1, "xyz"[d]), point.x[d]);
+  record.emplace_back("normal_displacement", point.normal_displacement);
   add(record, "tangential_displacement", point.tangential_displacement);
   add(record, "multiplier", point.lambda);
-  record.emplace_back("normal_traction", text(point.normal_traction));
+  record.emplace_back("normal_traction", point.normal_traction);
   add(record, "tangential_traction", point.tangential_traction);
   record.emplace_back("state", mode_name(point.mode()));
   record.emplace_back("boundary",
                       boundary.pair ? scene.boundaries[boundary.side].name : boundary.name);
-  record.emplace_back("gap", boundary.contact == Contact::tangential ? "" : text(point.gap));
+  record.emplace_back("gap", boundary.contact == Contact::tangential ? Value() : Value(point.gap));
   if (scene.has_load_history())
     add(record, "slip", point.slip);
   if (!scene.has_pairs())
     return record;
   record.emplace_back("contact", boundary.pair ? scene.pairs[*boundary.pair].name : "");
   record.emplace_back("master", master_name(state, scene));
-  record.emplace_back("jump_normal", text(point.normal_jump));
+  record.emplace_back("jump_normal", point.normal_jump);
   add(record, "jump_tangential", point.tangential_jump);
   return record;
 }
 } // namespace
 
 template <int dim>
-std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact)
+std::vector<Record> contact_rows(const Scene<dim> &scene,
+                                 const std::vector<ContactState<dim>> &contact)
 {
   std::vector<Record> rows;
   for (const ContactState<dim> &state : contact)
     for (const ContactPoint<dim> &point : state.points)
       rows.push_back(row(point, state, scene));
-  return csv(rows);
+  return rows;
 }
 
-template std::string contact_table(const Scene<2> &, const std::vector<ContactState<2>> &);
-template std::string contact_table(const Scene<3> &, const std::vector<ContactState<3>> &);
+template std::vector<Record> contact_rows(const Scene<2> &, const std::vector<ContactState<2>> &);
+template std::vector<Record> contact_rows(const Scene<3> &, const std::vector<ContactState<3>> &);
 } // namespace hpvi

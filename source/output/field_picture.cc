@@ -249,15 +249,14 @@ void draw_states(Drawing &drawing, const SampledField &field, const View<2> &vie
   for (std::size_t k = 0; k < contact.size(); ++k)
   {
     const Record &row = contact[k];
-    const std::string own = value_of(row, "state"),
-                      its_side = value_of(row, "contact") + value_of(row, "boundary");
+    const std::string own = words_of(row, "state"),
+                      its_side = words_of(row, "contact") + words_of(row, "boundary");
     const bool changes = own != state || its_side != side,
-               ends = k + 1 == contact.size() || value_of(contact[k + 1], "state") != own;
+               ends = k + 1 == contact.size() || words_of(contact[k + 1], "state") != own;
     if (!changes && !ends && k % stride != 0)
       continue;
     const PagePoint at =
-        displaced({number(value_of(row, "x")).value_or(0), number(value_of(row, "y")).value_or(0)},
-                  field, view);
+        displaced({number_of(row, "x").value_or(0), number_of(row, "y").value_or(0)}, field, view);
     const bool is_far = !line.empty() && line.back().distance(at) > page_size / 4;
     if (changes || is_far)
     {

@@ -13,8 +13,9 @@ namespace
 /** The centre of its interval, where there is one, and half the width of that. */
 void add(Record &record, const std::string &name, const Measured &number)
 {
-  record.emplace_back(name, known(number.best()));
-  record.emplace_back(name + "_bound", number.interval ? text(number.interval->half_width) : "");
+  record.emplace_back(name, number.best());
+  record.emplace_back(name + "_bound",
+                      number.interval ? Value(number.interval->half_width) : Value());
 }
 
 std::string name_of(const ForceKind kind)
@@ -30,9 +31,9 @@ std::vector<Record> forces_rows(const StepReport<dim> &step)
   std::vector<Record> rows;
   for (const Resultant<dim> &force : step.forces)
   {
-    Record row{{"step", text(step.number)},
-               {"load_step", is_history ? text(step.load.number) : ""},
-               {"t", is_history ? text(step.load.t) : ""},
+    Record row{{"step", step.number},
+               {"load_step", is_history ? Value(step.load.number) : Value()},
+               {"t", is_history ? Value(step.load.t) : Value()},
                {"name", force.name},
                {"kind", name_of(force.kind)}};
     for (unsigned int d = 0; d < dim; ++d)
@@ -78,7 +79,7 @@ Record prescribed_displacements(const StepReport<dim> &step)
       for (const double value : values)
         sum += value / values.size();
       record.emplace_back("displacement_" + boundary.name + "_" + "xyz"[d],
-                          values.empty() ? "" : text(sum));
+                          values.empty() ? Value() : Value(sum));
     }
   return record;
 }

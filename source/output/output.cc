@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/complete_run.h>
@@ -8,7 +9,6 @@
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
 #include <hpvi/output/report.h>
-#include <hpvi/output/run_files.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
@@ -65,9 +65,9 @@ step_files(const Scene<dim> &scene, const StepReport<dim> &step, const unsigned 
       [&](const std::string &name, const std::string &suffix, const std::string &content)
   { files.emplace_back(numbered(name, step.number, suffix), content); };
   for (const ProbeLine<dim> &line : step.probe_lines)
-    files.emplace_back(probe_file(scene, line, step.number), probe_table(line));
+    files.emplace_back(probe_file(scene, line, step.number), csv(probe_rows(line)));
   if (output.contact && scene.has_contact())
-    add("contact", ".csv", contact_table(scene, step.contact));
+    add("contact", ".csv", csv(contact_rows(scene, step.contact)));
   if constexpr (dim == 2)
     if (output.mesh_picture && n_processes == 1)
       add("mesh", ".svg", mesh_picture(step));
@@ -193,18 +193,18 @@ void Output<dim>::take_up(const unsigned int n_steps)
     const std::vector<Record> rows =
         tables.take_up(n_steps, scene.has_load_history(),
                        [&](const std::string &name) { return content_of(home / name); });
-    summary.take_up(rows, records(tables.loading().text));
+    summary.take_up(rows, tables.loading.last);
   }
   catch (const InputError &error)
   {
     directory->reject(error.what());
   }
   take_up_pictures(n_steps);
-  update("convergence.csv", tables.convergence());
-  update("degrees.csv", tables.degrees());
-  update("forces.csv", tables.forces());
-  if (!tables.loading().text.empty())
-    update("loading.csv", tables.loading());
+  update("convergence.csv", tables.convergence);
+  update("degrees.csv", tables.degrees);
+  update("forces.csv", tables.forces);
+  if (!tables.loading.text.empty())
+    update("loading.csv", tables.loading);
 }
 
 /** Of each step, or with OutputSteps::last of the last one and of the end of each load step. */
@@ -212,8 +212,8 @@ template <int dim>
 void Output<dim>::take_up_pictures(const unsigned int n_steps)
 {
   std::set<unsigned int> ends{n_steps};
-  for (const Record &load_step : records(tables.loading().text))
-    ends.insert(std::stoul(value_of(load_step, "step")));
+  for (const Record &load_step : records(tables.loading.text))
+    ends.insert(number_of(load_step, "step").value_or(0));
   const bool all = scene.output.steps == OutputSteps::all;
   const std::vector<std::string> of_step =
       directory->remove_after(n_steps, [&](const unsigned int step)
@@ -368,15 +368,15 @@ void Output<dim>::write_tables(const StepReport<dim> &step,
 {
   const bool is_last = !step.stopped_by.empty();
   tables.add(step);
-  update("convergence.csv", tables.convergence());
-  update("degrees.csv", tables.degrees());
-  update("forces.csv", tables.forces());
+  update("convergence.csv", tables.convergence);
+  update("degrees.csv", tables.degrees);
+  update("forces.csv", tables.forces);
   if (scene.has_load_history() && is_last)
   {
     announce({"loading.csv"});
-    update("loading.csv", tables.loading());
+    update("loading.csv", tables.loading);
   }
-  summary.add(step, tables.last_row());
+  summary.add(step, tables.convergence.last);
   if (state)
   {
     std::ostringstream content;

@@ -35,8 +35,8 @@ std::string plates_json(const Scene<dim> &scene, const Equilibrium<dim> &equilib
             json_string(scene.boundaries[plate.boundary].name) +
             ": {\"mean_point\": " + json_point<dim>(plate.centre) +
             ", \"displacement\": " + json_point<dim>(plate.displacement) +
-            ", \"rotation\": " + json_number(plate.rotation) +
-            ", \"moment\": " + json_number(plate.moment) + "}";
+            ", \"rotation\": " + json_value(plate.rotation) +
+            ", \"moment\": " + json_value(plate.moment) + "}";
   return "{" + list + (list.empty() ? "}" : "\n  }");
 }
 

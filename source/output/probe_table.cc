@@ -11,9 +11,9 @@ namespace hpvi
 namespace
 {
 /** About the value that stands beside it. */
-std::string bound_of(const Measured *const number)
+Value bound_of(const Measured *const number)
 {
-  return number ? known(number->half_width_about(number->value)) : "";
+  return number ? Value(number->half_width_about(number->value)) : Value();
 }
 
 /** By the ends of their names, as columns_of() has them. */
@@ -40,11 +40,11 @@ Record probe_record(const StepReport<dim> &step)
     for (unsigned int d = 0; d < dim; ++d)
     {
       const std::string column = name + "_u" + "xyz"[d];
-      record.emplace_back(column, known(value.displacement[d].value));
+      record.emplace_back(column, value.displacement[d].value);
       record.emplace_back(column + "_bound", bound_of(&value.displacement[d]));
     }
     for (const auto &[end, number] : invariants<dim>(value.stress))
-      record.emplace_back(name + "_" + end, known(number));
+      record.emplace_back(name + "_" + end, number);
   }
   return record;
 }
@@ -56,32 +56,32 @@ std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, cons
 }
 
 template <int dim>
-std::string probe_table(const ProbeLine<dim> &line)
+std::vector<Record> probe_rows(const ProbeLine<dim> &line)
 {
   std::vector<Record> rows;
   for (const LinePoint<dim> &point : line.points)
   {
     Record row;
     for (unsigned int d = 0; d < dim; ++d)
-      row.emplace_back(std::string(1, "xyz"[d]), text(point.x[d]));
+      row.emplace_back(std::string(1, "xyz"[d]), point.x[d]);
     for (unsigned int d = 0; d < dim; ++d)
-      row.emplace_back(std::string("u") + "xyz"[d], known(point.displacement[d]));
+      row.emplace_back(std::string("u") + "xyz"[d], point.displacement[d]);
     for (unsigned int d = 0; d < dim; ++d)
-      row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[d], known(point.stress[d][d]));
+      row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[d], point.stress[d][d]);
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int e = d + 1; e < dim; ++e)
-        row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[e], known(point.stress[d][e]));
+        row.emplace_back(std::string("s_") + "xyz"[d] + "xyz"[e], point.stress[d][e]);
     for (const auto &[end, number] : invariants<dim>(point.stress))
-      row.emplace_back(end, known(number));
+      row.emplace_back(end, number);
     rows.push_back(row);
   }
-  return csv(rows);
+  return rows;
 }
 
 template Record probe_record(const StepReport<2> &);
 template Record probe_record(const StepReport<3> &);
 template std::string probe_file(const Scene<2> &, const ProbeLine<2> &, unsigned int);
 template std::string probe_file(const Scene<3> &, const ProbeLine<3> &, unsigned int);
-template std::string probe_table(const ProbeLine<2> &);
-template std::string probe_table(const ProbeLine<3> &);
+template std::vector<Record> probe_rows(const ProbeLine<2> &);
+template std::vector<Record> probe_rows(const ProbeLine<3> &);
 } // namespace hpvi

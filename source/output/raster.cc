@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
 #include <hpvi/output/raster.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/utilities.h>
 
 #include <zlib.h>
 
@@ -86,6 +86,6 @@ std::string Raster::png_base64(const std::vector<Colour> &palette) const
   }
   add_chunk(file, "IDAT", compressed(rows));
   add_chunk(file, "IEND", {});
-  return dealii::Utilities::encode_base64(file);
+  return base64({file.begin(), file.end()});
 }
 } // namespace hpvi

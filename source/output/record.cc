@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/formatting.h>
 #include <hpvi/output/record.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -10,22 +10,86 @@ namespace hpvi
 {
 namespace
 {
-using NameOrValue = std::string Record::value_type::*;
-
-void add_line(std::string &table, const Record &record, const NameOrValue part)
+/** One that all of @p text is. */
+template <class Number>
+std::optional<Number> parsed(const std::string &text)
 {
-  for (std::size_t i = 0; i < record.size(); ++i)
-    table += (i > 0 ? "," : "") + record[i].*part;
+  Number number{};
+  const char *const end = text.data() + text.size();
+  if (text.empty() || std::from_chars(text.data(), end, number).ptr != end)
+    return std::nullopt;
+  return number;
+}
+
+std::string quoted(const std::string &field)
+{
+  if (field.find_first_of(",\"\n\r") == std::string::npos)
+    return field;
+  std::string result = "\"";
+  for (const char c : field)
+    result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
+}
+
+/** The inverse, of a whole line. */
+std::vector<std::string> fields_of(const std::string &line)
+{
+  std::vector<std::string> fields(1);
+  bool is_quoted = false;
+  for (std::size_t k = 0; k < line.size(); ++k)
+    if (line[k] == '"' && is_quoted && k + 1 < line.size() && line[k + 1] == '"')
+      fields.back() += line[++k];
+    else if (line[k] == '"')
+      is_quoted = !is_quoted;
+    else if (line[k] == ',' && !is_quoted)
+      fields.emplace_back();
+    else
+      fields.back() += line[k];
+  return fields;
+}
+
+/** Names or values: @p of says which. */
+template <class Fields, class Text>
+void add_line(std::string &table, const Fields &fields, const Text &of)
+{
+  std::string separator;
+  for (const auto &field : fields)
+    table += std::exchange(separator, ",") + quoted(of(field));
   table += '\n';
 }
 } // namespace
 
-std::string known(const double value)
+std::string text(const Value &value)
 {
-  return std::isfinite(value) ? text(value) : "";
+  if (const std::string *const words = std::get_if<std::string>(&value))
+    return *words;
+  if (const std::uint64_t *const count = std::get_if<std::uint64_t>(&value))
+    return std::to_string(*count);
+  const std::optional<double> finite = number(value);
+  return finite ? text(*finite) : "";
 }
 
-std::string value_of(const Record &record, const std::string &column)
+Value value_from(const std::string &field)
+{
+  const auto count = parsed<std::uint64_t>(field);
+  const auto number = parsed<double>(field);
+  for (const Value &value : {count ? Value(*count) : Value(), number ? Value(*number) : Value()})
+    if (text(value) == field)
+      return value;
+  return field;
+}
+
+std::optional<double> number(const Value &value)
+{
+  if (const std::uint64_t *const count = std::get_if<std::uint64_t>(&value))
+    return *count;
+  if (const std::string *const words = std::get_if<std::string>(&value))
+    return parsed<double>(*words);
+  const double *const number = std::get_if<double>(&value);
+  return number && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
+}
+
+Value value_of(const Record &record, const std::string &column)
 {
   for (const auto &[name, value] : record)
     if (name == column)
@@ -33,79 +97,79 @@ std::string value_of(const Record &record, const std::string &column)
   return {};
 }
 
+std::string words_of(const Record &record, const std::string &column)
+{
+  return text(value_of(record, column));
+}
+
+std::optional<double> number_of(const Record &record, const std::string &column)
+{
+  return number(value_of(record, column));
+}
+
 std::string csv(const std::vector<Record> &records)
 {
+  std::vector<std::string> columns; // of most tables those of each row
+  for (const Record &record : records)
+    for (std::size_t k = 0; k < record.size(); ++k)
+      if (const std::string &name = record[k].first;
+          (k >= columns.size() || columns[k] != name) &&
+          std::find(columns.begin(), columns.end(), name) == columns.end())
+        columns.push_back(name);
   std::string table;
   if (!records.empty())
-    add_line(table, records.back(), &Record::value_type::first);
+    add_line(table, columns, [](const std::string &column) { return column; });
   for (const Record &record : records)
-    add_line(table, record, &Record::value_type::second);
+  {
+    std::size_t k = 0;
+    add_line(table, columns,
+             [&](const std::string &column)
+             {
+               const bool is_next = k < record.size() && record[k].first == column;
+               return is_next ? text(record[k++].second) : words_of(record, column);
+             });
+  }
   return table;
 }
 
 std::vector<Record> records(const std::string &csv)
 {
-  const auto fields = [](const std::string &line)
-  {
-    std::vector<std::string> result(1);
-    for (const char c : line)
-      if (c == ',')
-        result.emplace_back();
-      else
-        result.back() += c;
-    return result;
-  };
   std::vector<Record> result;
   std::istringstream in(csv.substr(0, csv.rfind('\n') + 1));
   std::string line;
   std::getline(in, line);
-  const std::vector<std::string> names = fields(line);
+  const std::vector<std::string> names = fields_of(line);
   while (std::getline(in, line))
   {
-    const std::vector<std::string> values = fields(line);
-    if (values.size() != names.size())
+    const std::vector<std::string> fields = fields_of(line);
+    if (fields.size() != names.size())
       return result;
     result.emplace_back();
     for (std::size_t k = 0; k < names.size(); ++k)
-      result.back().emplace_back(names[k], values[k]);
+      result.back().emplace_back(names[k], value_from(fields[k]));
   }
   return result;
 }
 
-void add_row(GrowingText &table, const Record &row)
+void GrowingTable::add(const std::vector<Record> &rows)
 {
-  table.same = table.text.size();
-  if (table.text.empty())
-    add_line(table.text, row, &Record::value_type::first);
-  add_line(table.text, row, &Record::value_type::second);
-}
-
-void add_rows(GrowingText &table, const std::vector<Record> &rows)
-{
-  const std::size_t same = table.text.size();
+  same = text.size();
   for (const Record &row : rows)
-    add_row(table, row);
-  table.same = same;
+  {
+    if (text.empty())
+      add_line(text, row, [](const auto &field) { return field.first; });
+    add_line(text, row, [](const auto &field) { return hpvi::text(field.second); });
+    last = row;
+  }
 }
 
-std::string json_number(const double value)
+std::string json_value(const Value &value)
 {
-  return std::isfinite(value) ? text(value) : "null";
+  const std::string field = text(value);
+  return field.empty()                                ? "null"
+         : std::holds_alternative<std::string>(value) ? json_string(field)
+                                                      : field;
 }
-
-namespace
-{
-/** A field is a number that text() wrote, or words. */
-std::string json_value(const std::string &field)
-{
-  double number = 0;
-  const char *const end = field.data() + field.size();
-  const bool is_number = std::from_chars(field.data(), end, number).ptr == end && !field.empty();
-  if (field.empty() || (is_number && !std::isfinite(number)))
-    return "null";
-  return is_number ? field : json_string(field);
-}
-} // namespace
 
 std::string json_object(const Record &record)
 {
@@ -115,7 +179,7 @@ std::string json_object(const Record &record)
   return "{" + list + "\n  }";
 }
 
-std::string json_file(const Record &members)
+std::string json_file(const std::vector<std::pair<std::string, std::string>> &members)
 {
   std::string list;
   for (const auto &[name, value] : members)

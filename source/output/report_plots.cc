@@ -21,7 +21,7 @@ constexpr const char *blue = "#1f5fa8", *orange = "#e07b00", *green = "#00796b",
 
 double field(const Record &row, const std::string &column)
 {
-  return number(value_of(row, column)).value_or(std::numeric_limits<double>::quiet_NaN());
+  return number_of(row, column).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 bool has_points(const ChartLine &line)
@@ -81,7 +81,7 @@ struct ContactRows
 
   std::string boundary() const
   {
-    return value_of(rows.front(), "boundary");
+    return words_of(rows.front(), "boundary");
   }
 
   /** As in "joint (upper.bottom)", of which answer and forces tell. */
@@ -96,8 +96,8 @@ std::vector<ContactRows> by_contact(const std::vector<Record> &contact)
   std::vector<ContactRows> result;
   for (const Record &row : contact)
   {
-    const std::string pair = value_of(row, "contact"),
-                      name = pair.empty() ? value_of(row, "boundary") : pair;
+    const std::string pair = words_of(row, "contact"),
+                      name = pair.empty() ? words_of(row, "boundary") : pair;
     const auto found = std::find_if(result.begin(), result.end(),
                                     [&](const ContactRows &one) { return one.name == name; });
     ContactRows &own = found == result.end() ? result.emplace_back() : *found;
@@ -153,7 +153,7 @@ std::vector<ChartBand> bands_of(const std::vector<Record> &rows, const std::vect
   std::string last;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
-    const std::string state = value_of(rows[k], "state");
+    const std::string state = words_of(rows[k], "state");
     const double begin = k == 0 ? 0. : (lengths[k - 1] + lengths[k]) / 2,
                  end = k + 1 < rows.size() ? (lengths[k] + lengths[k + 1]) / 2 : lengths[k];
     if (state == last)

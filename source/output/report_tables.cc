@@ -15,10 +15,10 @@ namespace hpvi
 namespace
 {
 /** What is a number is rounded. */
-std::string shown(const std::string &field, const int n_digits = shown_digits)
+std::string shown(const Value &field, const int n_digits = shown_digits)
 {
   const std::optional<double> value = number(field);
-  return value ? text(*value, n_digits) : field;
+  return value ? text(*value, n_digits) : text(field);
 }
 
 /** Without columns that are empty in each row. */
@@ -53,7 +53,7 @@ HtmlTable forces_table(const std::vector<Record> &forces)
   HtmlTable table{{"boundary", "kind"}, {}};
   for (const Record &row : forces)
   {
-    std::vector<std::string> fields{value_of(row, "name"), value_of(row, "kind")};
+    std::vector<std::string> fields{words_of(row, "name"), words_of(row, "kind")};
     for (std::size_t k = 5; k + 1 < row.size(); k += 2)
     {
       if (table.rows.empty())
@@ -163,7 +163,7 @@ std::string steps_table(const RunFiles &files)
     {
       table.rows.emplace_back();
       for (const Column &column : columns)
-        table.rows.back().push_back(shown(value_of(files.steps[k], column.name), column.digits));
+        table.rows.back().push_back(shown(words_of(files.steps[k], column.name), column.digits));
     }
     else if (k == first)
       table.rows.emplace_back(table.head.size(), "...");

@@ -206,12 +206,12 @@ std::string contact_words(const Scene<dim> &scene, const RunFiles &files, const 
   std::string normal = value_words(contact, "normal_resultant", force),
               friction = value_words(contact, "friction_resultant", force);
   for (const Record &row : files.forces)
-    if (value_of(row, "name") == name && value_of(row, "kind") == "contact")
+    if (words_of(row, "name") == name && words_of(row, "kind") == "contact")
     {
-      if (!value_of(row, "normal_bound").empty())
-        normal = measured(value_of(row, "normal"), value_of(row, "normal_bound"), force);
-      if (!value_of(row, "friction_bound").empty())
-        friction = measured(value_of(row, "friction"), value_of(row, "friction_bound"), force);
+      if (!words_of(row, "normal_bound").empty())
+        normal = measured(words_of(row, "normal"), words_of(row, "normal_bound"), force);
+      if (!words_of(row, "friction_bound").empty())
+        friction = measured(words_of(row, "friction"), words_of(row, "friction_bound"), force);
     }
   const std::string unbounded =
       unbounded_words("pressure", contact, "unbounded_pressure", stress, length, force);
@@ -261,10 +261,10 @@ std::string probes_words(const Scene<dim> &scene, const RunFiles &files)
     std::string list;
     for (const std::string &column : columns_of(probe))
     {
-      const std::string value = value_of(last, column), end = column.substr(probe.name.size() + 1);
+      const std::string value = words_of(last, column), end = column.substr(probe.name.size() + 1);
       if (!value.empty() && end.find("_bound") == std::string::npos)
         list += (list.empty() ? "" : ", ") + end + " " +
-                measured(value, value_of(last, column + "_bound"),
+                measured(value, words_of(last, column + "_bound"),
                          end[0] == 'u' ? scene.length_unit : scene.stress_unit);
     }
     if (!list.empty())

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/result_directory.h>
+#include <hpvi/output/run_files.h>
 
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS // as the parser still does; silences its note
-#include <boost/property_tree/json_parser.hpp>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -70,32 +70,21 @@ bool names_its_maker(const fs::path &file)
 /** Which of @p names has this program written, and for which scene? */
 EarlierRun earlier_run(const fs::path &directory, const std::set<std::string> &names)
 {
-  boost::property_tree::ptree summary;
   std::error_code ignored;
   if (!fs::is_regular_file(directory / summary_name, ignored))
     return {};
-  try
-  {
-    std::ifstream file(directory / summary_name);
-    boost::property_tree::read_json(file, summary);
-  }
-  catch (const boost::property_tree::ptree_error &)
-  {
+  const JsonTree summary = json_tree(content_of(directory / summary_name)).value_or(JsonTree());
+  if (words_of(summary, "program").rfind("hpvi ", 0) != 0)
     return {};
-  }
-  if (summary.get<std::string>("program", "").rfind("hpvi ", 0) != 0)
-    return {};
-  const auto list = summary.get_child_optional("files");
+  const JsonTree *const list = member(summary, "files");
   FileNames listed;
   if (list)
     for (const auto &file : *list)
       listed.add(file.second.data());
-  EarlierRun run{{}, summary.get<std::string>("scene_file", "null")};
+  EarlierRun run{{}, words_of(summary, "scene_file")};
   for (const std::string &name : names)
     if (!list || listed.contains(name))
       run.files.add(name);
-  if (run.scene == "null")
-    run.scene.clear();
   return run;
 }
 } // namespace

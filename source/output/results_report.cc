@@ -123,7 +123,7 @@ template <int dim>
 std::string largest_displacement_json(const StepReport<dim> &step)
 {
   const PlacedValue<dim> &largest = step.largest_displacement;
-  return "{\n    \"value\": " + json_number(largest.value) +
+  return "{\n    \"value\": " + json_value(largest.value) +
          ",\n    \"at\": " + (largest.value > 0 ? json_point<dim>(largest.where) : "null") +
          "\n  }";
 }

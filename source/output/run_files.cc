@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/run_files.h>
@@ -7,20 +8,25 @@
 #include <boost/property_tree/json_parser.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <fstream>
 #include <sstream>
 
 namespace hpvi
 {
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path &file)
+std::optional<JsonTree> json_tree(const std::string &text)
 {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
+  JsonTree tree;
+  std::istringstream in(text);
+  try
+  {
+    boost::property_tree::read_json(in, tree);
+  }
+  catch (const boost::property_tree::ptree_error &)
+  {
+    return std::nullopt;
+  }
+  return tree;
 }
 
 const JsonTree *member(const JsonTree &tree, const std::string &name)
@@ -33,15 +39,6 @@ std::string words_of(const JsonTree &tree, const std::string &name)
 {
   const JsonTree *const found = member(tree, name);
   return found ? found->data() : "";
-}
-
-std::optional<double> number(const std::string &field)
-{
-  double value = 0;
-  const char *const end = field.data() + field.size();
-  if (field.empty() || std::from_chars(field.data(), end, value).ptr != end)
-    return std::nullopt;
-  return value;
 }
 
 std::optional<double> number_of(const JsonTree &tree, const std::string &name)
@@ -103,15 +100,10 @@ RunFiles read_run(const std::string &directory, const std::string &summary, cons
 {
   const fs::path home(directory);
   RunFiles files;
-  std::istringstream text(summary);
-  try
-  {
-    boost::property_tree::read_json(text, files.summary);
-  }
-  catch (const boost::property_tree::ptree_error &)
-  {
+  if (const std::optional<JsonTree> tree = json_tree(summary))
+    files.summary = *tree;
+  else
     throw InputError("its summary.json is no JSON; run the scene again");
-  }
   if (words_of(files.summary, "program").rfind("hpvi ", 0) != 0)
     throw InputError("its summary.json is not one of hpvi; name the directory of a run's results");
   files.steps = records(content_of(home / "convergence.csv"));
@@ -126,10 +118,10 @@ RunFiles read_run(const std::string &directory, const std::string &summary, cons
   }
   files.loads = records(content_of(home / "loading.csv"));
   files.forces = records(content_of(home / "forces.csv"));
-  const std::string last = value_of(files.steps.back(), "step");
+  const std::string last = words_of(files.steps.back(), "step");
   files.forces.erase(std::remove_if(files.forces.begin(), files.forces.end(),
                                     [&](const Record &row)
-                                    { return value_of(row, "step") != last; }),
+                                    { return words_of(row, "step") != last; }),
                      files.forces.end());
   files.contact = records(content_of(home / numbered("contact", n_steps, ".csv")));
   files.mesh = content_of(home / numbered("mesh", n_steps, ".svg"));

@@ -11,7 +11,6 @@
 #include <hpvi/reader/scene_entries.h>
 
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 
 namespace hpvi
@@ -21,11 +20,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-std::string words_or_null(const std::string &words)
-{
-  return words.empty() ? "null" : json_string(words);
-}
-
 std::string units_json(const std::string &length, const std::string &stress)
 {
   return "{\n    \"length\": " + json_string(length) + ",\n    \"stress\": " + json_string(stress) +
@@ -37,40 +31,23 @@ std::string loading_json(const LoadStep &load, const unsigned int n_load_steps)
 {
   if (n_load_steps == 0)
     return "null";
-  return json_object({{"load_steps", text(n_load_steps)},
-                      {"finished", text(load.number)},
-                      {"t", text(load.t)},
-                      {"dissipated_energy", text(load.dissipated)},
-                      {"work", text(load.work)},
-                      {"stored_energy", text(load.stored)},
-                      {"released_energy", text(load.released)},
-                      {"unbalanced_energy", text(load.unbalanced)},
-                      {"dissipated_energy_trapezoidal", text(load.trapezoidal)}});
+  return json_object({{"load_steps", n_load_steps},
+                      {"finished", load.number},
+                      {"t", load.t},
+                      {"dissipated_energy", load.dissipated},
+                      {"work", load.work},
+                      {"stored_energy", load.stored},
+                      {"released_energy", load.released},
+                      {"unbalanced_energy", load.unbalanced},
+                      {"dissipated_energy_trapezoidal", load.trapezoidal}});
 }
 
-/** The guaranteed bound; relative to a displacement of zero it is null. */
-template <int dim>
-std::string bound_json(const StepReport<dim> &step)
-{
-  if (!step.bound)
-    return "null";
-  const double energy = step.energies.energy; // J(u_N)
-  return "{\n    \"step\": " + text(step.number) +
-         ",\n    \"guaranteed\": true,\n    \"energy_norm\": " + json_number(step.bound->total) +
-         ",\n    \"relative\": " + json_number(step.relative_bound) +
-         ",\n    \"imbalance\": " + json_number(step.bound->imbalance) + ",\n    \"energy\": [" +
-         json_number(energy - step.bound->energy_below) + ", " +
-         json_number(energy + step.bound->energy_above) + "]\n  }";
-}
-
-/** The same by the row of its step; relative to a displacement of zero it is null. */
+/** The guaranteed bound in the row of its step; relative to a displacement of zero it is null. */
 std::string bound_json(const Record &row)
 {
-  const auto field = [&](const std::string &column)
-  {
-    const std::string value = value_of(row, column);
-    return value.empty() ? "null" : value;
-  };
+  if (!number_of(row, "error_bound"))
+    return "null";
+  const auto field = [&](const std::string &column) { return json_value(value_of(row, column)); };
   return "{\n    \"step\": " + field("step") +
          ",\n    \"guaranteed\": true,\n    \"energy_norm\": " + field("error_bound") +
          ",\n    \"relative\": " + field("error_bound_relative") +
@@ -79,26 +56,22 @@ std::string bound_json(const Record &row)
 }
 } // namespace
 
-void Summary::take_up(const std::vector<Record> &rows, const std::vector<Record> &load_steps)
+void Summary::take_up(const std::vector<Record> &rows, const Record &last_load)
 {
   const std::array<double *, 9> stages{{&times.setup, &times.assemble, &times.factor, &times.qp,
                                         &times.recover, &times.estimate, &times.bound,
                                         &times.decide, &times.refine}};
   for (const Record &row : rows)
-    for (const auto &[column, value] : row)
-    {
-      if (column == "error_bound" && !value.empty())
-        last_error_bound = bound_json(row);
-      for (std::size_t k = 0; k < stages.size(); ++k)
-        if (column == std::string("seconds_") + times.named()[k].first)
-          *stages[k] += std::strtod(value.c_str(), nullptr);
-    }
+  {
+    if (number_of(row, "error_bound"))
+      last_error_bound = bound_json(row);
+    for (std::size_t k = 0; k < stages.size(); ++k)
+      *stages[k] += number_of(row, std::string("seconds_") + times.named()[k].first).value_or(0);
+  }
   steps = rows.size();
   last_row = rows.back();
-  if (load_steps.empty())
-    return;
   const auto number = [&](const char *const column)
-  { return std::strtod(value_of(load_steps.back(), column).c_str(), nullptr); };
+  { return number_of(last_load, column).value_or(0); };
   load_step = static_cast<unsigned int>(number("load_step"));
   load = {load_step,
           number("t"),
@@ -115,7 +88,7 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
 {
   ++steps;
   if (step.bound || step.load.number != load_step)
-    last_error_bound = bound_json(step);
+    last_error_bound = bound_json(row);
   if (contradiction.empty())
     contradiction = step.contradiction;
   if (!contradiction.empty())
@@ -133,15 +106,15 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   if (stopped_by.empty())
     return;
   load = step.load;
-  ending.error_bound = bound_json(step);
-  ending.no_error_bound = words_or_null(step.bound ? "" : step.no_bound);
+  ending.error_bound = bound_json(row);
+  ending.no_error_bound = json_value(step.bound ? "" : step.no_bound);
   ending.forces = forces_json(step.equilibrium);
   if (step.scene.has_plates())
     ending.plates = plates_json(step.scene, step.equilibrium);
   ending.balance = balance_json(step.equilibrium);
   ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
   ending.largest_displacement = largest_displacement_json(step);
-  ending.no_intervals = words_or_null(step.no_intervals);
+  ending.no_intervals = json_value(step.no_intervals);
   ending.von_mises = von_mises_json(step.extrema, step.unbounded);
 }
 
@@ -154,22 +127,22 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
           : "";
   const bool began_elsewhere = !scene_file.empty();
   Record seconds = stage_record(times);
-  seconds.emplace_back("report", text(seconds_of_report, 6));
-  Record entries{
+  seconds.emplace_back("report", rounded(seconds_of_report, 6));
+  std::vector<std::pair<std::string, std::string>> entries{
       {"status", json_string(status)},
-      {"stopped_by", words_or_null(stopped_by)},
-      {"message", words_or_null(message)},
+      {"stopped_by", json_value(stopped_by)},
+      {"message", json_value(message)},
       {"scene", json_string(began_elsewhere ? fs::path(scene_file).stem().string() : scene.name)},
-      {"scene_file", words_or_null(began_elsewhere    ? scene_file
-                                   : scene.parameters ? scene.file
-                                                      : "")},
+      {"scene_file", json_value(began_elsewhere    ? scene_file
+                                : scene.parameters ? scene.file
+                                                   : "")},
       {"title", json_string(scene.title)},
       {"program", json_string("hpvi " + version())},
       {"build", json_string(build_type())},
       {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
       {"units", units_json(scene.length_unit, scene.stress_unit)},
-      {"normal_contact", words_or_null(normal_contact)},
-      {"linear", words_or_null(linear)},
+      {"normal_contact", json_value(normal_contact)},
+      {"linear", json_value(linear)},
       {"processes", text(processes)},
       {"threads", text(n_threads(scene, processes))},
       {"loads", loads_json(loads)},

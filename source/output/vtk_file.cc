@@ -55,28 +55,14 @@ template VtkArray vtk_array(const std::string &, const std::vector<unsigned char
 
 namespace
 {
-/** deal.II's function takes several times as long. */
-void add_base64(const std::string &bytes, std::string &text)
-{
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::size_t at = text.size();
-  text.resize(at + (bytes.size() + 2) / 3 * 4, '=');
-  for (std::size_t k = 0; k < bytes.size(); k += 3, at += 4)
-  {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - k);
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      word = word << 8 | (i < n ? static_cast<unsigned char>(bytes[k + i]) : 0U);
-    for (std::size_t i = 0; i <= n; ++i)
-      text[at + i] = digits[word >> (18 - 6 * i) & 63];
-  }
-}
-
 /** One block that zlib has compressed, as fast as it can, behind its sizes; no numbers are no block, as of a process without cells. */
 void add_encoded(const std::string &bytes, std::string &text)
 {
   if (bytes.empty())
-    return add_base64(std::string(3 * sizeof(std::uint32_t), '\0'), text);
+  {
+    text += base64(std::string(3 * sizeof(std::uint32_t), '\0'));
+    return;
+  }
   uLongf size = compressBound(bytes.size());
   std::string block(size, '\0');
   const int status =
@@ -86,8 +72,7 @@ void add_encoded(const std::string &bytes, std::string &text)
   block.resize(size);
   const std::array<std::uint32_t, 4> head{
       {1, std::uint32_t(bytes.size()), std::uint32_t(bytes.size()), std::uint32_t(size)}};
-  add_base64({reinterpret_cast<const char *>(head.data()), sizeof head}, text);
-  add_base64(block, text);
+  text += base64({reinterpret_cast<const char *>(head.data()), sizeof head}) + base64(block);
 }
 
 std::string attributes(const VtkArray &array)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/output/vtu_reader.h>
 
@@ -20,40 +21,6 @@ void require(const bool holds, const std::string &what)
 {
   if (!holds)
     throw InputError(what);
-}
-
-/** The sign that four of make three bytes; of any other 0. */
-unsigned int sextet(const char c)
-{
-  return c >= 'A' && c <= 'Z'   ? c - 'A'
-         : c >= 'a' && c <= 'z' ? c - 'a' + 26
-         : c >= '0' && c <= '9' ? c - '0' + 52
-         : c == '+'             ? 62
-         : c == '/'             ? 63
-                                : 0;
-}
-
-/** Faster than what is at hand, which takes longer than the picture. */
-std::string from_base64(const std::string_view text)
-{
-  static const std::array<unsigned char, 256> table = []()
-  {
-    std::array<unsigned char, 256> result{};
-    for (unsigned int c = 0; c < 256; ++c)
-      result[c] = sextet(static_cast<char>(c));
-    return result;
-  }();
-  std::string bytes(text.size() / 4 * 3, '\0');
-  const auto *in = reinterpret_cast<const unsigned char *>(text.data());
-  for (std::size_t k = 0; k < bytes.size(); k += 3, in += 4)
-  {
-    const unsigned int word =
-        table[in[0]] << 18 | table[in[1]] << 12 | table[in[2]] << 6 | table[in[3]];
-    bytes[k] = static_cast<char>(word >> 16);
-    bytes[k + 1] = static_cast<char>(word >> 8);
-    bytes[k + 2] = static_cast<char>(word);
-  }
-  return bytes;
 }
 
 /** The blocks behind their number, sizes and compressed sizes. */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
@@ -6,7 +7,6 @@
 #include <hpvi/output/output.h>
 #include <hpvi/output/report.h>
 #include <hpvi/output/result_directory.h>
-#include <hpvi/output/run_files.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/program/command_line.h>

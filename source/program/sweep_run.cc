@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/cores.h>
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/memory.h>
@@ -12,7 +13,6 @@
 #include <hpvi/output/output.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_words.h>
-#include <hpvi/output/sweep_table.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/started_processes.h>
 #include <hpvi/program/sweep_run.h>
@@ -23,10 +23,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <iterator>
 #include <mutex>
 #include <optional>
 
@@ -39,12 +37,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(const Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::string content_of(const std::filesystem::path &file)
-{
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /** The scenes of one command, and what becomes of them. */
@@ -195,11 +187,12 @@ void Sweep<dim>::look_for_results()
     names.push_back(scene.directory);
   if (const std::string table = content_of(home + "/sweep.csv"); !table.empty())
   {
-    const std::vector<std::string> others = swept_directories(table);
-    if (others.empty())
+    const std::vector<Record> others = records(table);
+    if (others.empty() || words_of(others.front(), "directory").empty())
       reject("its sweep.csv is no table of a sweep of hpvi, and would be overwritten");
-    for (const std::string &other : others)
-      if (std::find(names.begin(), names.end(), other) == names.end())
+    for (const Record &row : others)
+      if (const std::string other = words_of(row, "directory");
+          std::find(names.begin(), names.end(), other) == names.end())
         reject("its sweep.csv is of another sweep, with " + printable(other));
   }
   for (std::size_t k = 0; k < swept.size(); ++k)
@@ -225,12 +218,12 @@ void Sweep<dim>::write_table()
   std::vector<Record> rows;
   for (std::size_t k = 0; k < swept.size(); ++k)
   {
-    rows.emplace_back(swept[k].overrides);
+    rows.emplace_back(swept[k].overrides.begin(), swept[k].overrides.end());
     rows.back().emplace_back("directory", swept[k].directory);
     rows.back().emplace_back("status", runs[k].status);
     rows.back().insert(rows.back().end(), last_rows[k].begin(), last_rows[k].end());
   }
-  if (const std::error_code error = directory->write("sweep.csv", sweep_csv(rows)))
+  if (const std::error_code error = directory->write("sweep.csv", csv(rows)))
     throw OutputFailure(directory->name() + ": sweep.csv cannot be written: " + error.message());
   written = Clock::now();
 }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iomanip>
 #include <sstream>
 
@@ -20,14 +19,6 @@ namespace
 std::string in_short(const std::string &warning)
 {
   return warning.substr(0, std::min(warning.find(": "), warning.find("; ")));
-}
-
-std::string field_of(const Record &record, const std::string &column)
-{
-  for (const auto &[name, value] : record)
-    if (name == column)
-      return value;
-  return {};
 }
 
 /** The columns behind the name. */
@@ -98,14 +89,13 @@ std::string SweptRun::head(const std::size_t width)
 std::string SweptRun::line(const std::string &name, const std::size_t width,
                            const Record &last_row) const
 {
-  const std::string energy = field_of(last_row, "energy"),
-                    unknowns = field_of(last_row, "dofs_free");
+  const std::optional<double> energy = number_of(last_row, "energy");
+  const std::string unknowns = words_of(last_row, "dofs_free");
   std::ostringstream time;
   time << std::fixed << std::setprecision(2) << seconds;
-  std::string result =
-      padded(name, width) +
-      columns(status, energy.empty() ? "-" : text(std::strtod(energy.c_str(), nullptr), 8),
-              unknowns.empty() ? "-" : unknowns, was_done ? "before" : time.str());
+  std::string result = padded(name, width) + columns(status, energy ? text(*energy, 8) : "-",
+                                                     unknowns.empty() ? "-" : unknowns,
+                                                     was_done ? "before" : time.str());
   if (was_postponed)
     result += "  alone, for beside others it was short of memory";
   if (!message.empty())

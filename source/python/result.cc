@@ -134,26 +134,26 @@ public:
     return dim;
   }
 
-  Rows contact() const override
+  std::vector<Record> contact() const override
   {
-    return records(contact_table(scene, step().contact));
+    return contact_rows(scene, step().contact);
   }
 
-  Rows forces() const override
+  std::vector<Record> forces() const override
   {
     return forces_rows(step());
   }
 
-  Rows loading() const override
+  std::vector<Record> loading() const override
   {
-    return records(tables.loading().text);
+    return loads;
   }
 
-  std::vector<std::pair<std::string, Rows>> probe_lines() const override
+  std::vector<std::pair<std::string, std::vector<Record>>> probe_lines() const override
   {
-    std::vector<std::pair<std::string, Rows>> lines;
+    std::vector<std::pair<std::string, std::vector<Record>>> lines;
     for (const ProbeLine<dim> &line : step().probe_lines)
-      lines.emplace_back(scene.probes[line.probe].name, records(probe_table(line)));
+      lines.emplace_back(scene.probes[line.probe].name, probe_rows(line));
     return lines;
   }
 
@@ -197,6 +197,7 @@ private:
   }
 
   Tables<dim> tables;
+  std::vector<Record> loads;
 };
 
 template <int dim>
@@ -204,7 +205,9 @@ void RunOf<dim>::take(const StepReport<dim> &step)
 {
   last.emplace(step);
   tables.add(step);
-  steps.push_back(tables.last_row());
+  steps.push_back(tables.convergence.last);
+  if (step.load.number > 0 && !step.stopped_by.empty())
+    loads.push_back(tables.loading.last);
   stopped_by = step.stopped_by;
   warnings = texts(step.warnings);
 }

@@ -7,10 +7,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <set>
 #include <vector>
 
 namespace py = pybind11;
@@ -19,19 +19,6 @@ namespace hpvi
 {
 namespace
 {
-const std::set<std::string> counts = {"step",        "elements", "dofs",  "dofs_free",
-                                      "multipliers", "p_min",    "p_max", "load_step"},
-                            names = {"transitions", "coulomb_method", "state",
-                                     "boundary",    "contact",        "master",
-                                     "name",        "kind",           "stopped_by"};
-
-double number(const std::string &text)
-{
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
-
 template <class T>
 py::array_t<T> copy(const std::vector<T> &values, const std::vector<py::ssize_t> &shape)
 {
@@ -40,38 +27,35 @@ py::array_t<T> copy(const std::vector<T> &values, const std::vector<py::ssize_t>
   return result;
 }
 
-/** One field of a column. */
-py::object field(const std::string &column, const std::string &text)
+py::object field(const Value &value)
 {
-  if (names.count(column))
-    return py::str(text);
-  if (counts.count(column) && !text.empty())
-    return py::int_(static_cast<long>(number(text)));
-  return py::float_(number(text));
+  if (const std::string *const words = std::get_if<std::string>(&value))
+    return py::str(*words);
+  if (const std::uint64_t *const count = std::get_if<std::uint64_t>(&value))
+    return py::int_(*count);
+  return py::float_(number(value).value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
 /** Of a column that all rows have. */
-py::object column(const Rows &rows, const std::size_t number_of_column)
+py::object column(const std::vector<Record> &rows, const std::size_t number_of_column)
 {
-  const std::string &name = rows.front()[number_of_column].first;
-  bool has_empty = false;
+  std::array<bool, std::variant_size_v<Value>> has{};
   py::list fields;
-  for (const auto &row : rows)
+  for (const Record &row : rows)
   {
-    const std::string &text = row[number_of_column].second;
-    has_empty = has_empty || text.empty();
-    fields.append(field(name, text));
+    const Value &value = row[number_of_column].second;
+    has[value.index()] = true;
+    fields.append(field(value));
   }
-  const bool is_count = counts.count(name) && !has_empty;
-  const char *const type = is_count ? "int64" : names.count(name) ? "str" : "float64";
+  const char *const type = has[3] ? "str" : has[2] || has[0] ? "float64" : "int64";
   return py::module_::import("numpy").attr("array")(fields, type);
 }
 
 /**
- * The columns of a table by name: counts are whole numbers, names are texts, all else is float with NaN where a field is
+ * The columns of a table by name: counts are whole numbers, words are texts, all else is float with NaN where a field is
  * empty.
  */
-py::dict columns(const Rows &rows)
+py::dict columns(const std::vector<Record> &rows)
 {
   py::dict result;
   for (std::size_t k = 0; !rows.empty() && k < rows.front().size(); ++k)
@@ -165,9 +149,9 @@ py::object by_cell(const std::vector<double> &values)
 py::object last_value(const Result &result, const std::string &column)
 {
   if (!result.steps.empty())
-    for (const auto &[name, text] : result.steps.back())
+    for (const auto &[name, value] : result.steps.back())
       if (name == column)
-        return field(name, text);
+        return field(value);
   throw py::key_error(column + ": is no column of convergence.csv; steps has them all");
 }
 

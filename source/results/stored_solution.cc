@@ -35,14 +35,6 @@ bool belongs_to_problem(const std::string &section, const std::string &entry)
           entry != "Grading levels");
 }
 
-std::string content_of(const std::string &file)
-{
-  std::ifstream in(file, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(file))
-    format.reject(file, "the reference solution cannot be read");
-  return format.read(in, file);
-}
-
 /**
  * A cell by its coarse cell and the children on the way to it. (deal.II's CellId holds 30 levels,
  * and meshes that close in on a transition go deeper.)
@@ -100,7 +92,10 @@ std::map<std::string, CellRecord> read_records(std::istream &in, const std::stri
 template <int dim>
 StoredSolution<dim>::StoredSolution(const Scene<dim> &scene, const std::string &file)
 {
-  std::istringstream content(content_of(file));
+  std::ifstream in(file, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(file))
+    format.reject(file, "the reference solution cannot be read");
+  std::istringstream content(format.read(in, file));
   const std::vector<std::string> problem = read_problem(content, file, energy_value);
   format.check_entries(file, problem, entries_of(effective_parameters(scene), belongs_to_problem));
   const std::map<std::string, CellRecord> records = read_records(content, file, dim);

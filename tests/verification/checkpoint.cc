@@ -5,6 +5,7 @@
 
 #include <hpvi/base/input_error.h>
 #include <hpvi/output/summary.h>
+#include <hpvi/output/tables.h>
 
 #include <filesystem>
 #include <fstream>
@@ -330,7 +331,9 @@ TEST(RunState, KeepsWhatIsGuaranteed)
         .run(
             [&](const StepReport<2> &step)
             {
-              summary.add(step, {});
+              Tables<2> tables;
+              tables.add(step);
+              summary.add(step, tables.convergence.last);
               contradictions.push_back(step.contradiction);
               EXPECT_EQ(bool(step.bound), step.contradiction.empty());
               EXPECT_EQ(step.bound ? "" : no_guarantee(step.contradiction), step.no_bound);

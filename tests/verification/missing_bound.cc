@@ -4,6 +4,7 @@
 
 #include <hpvi/base/formatting.h>
 #include <hpvi/output/summary.h>
+#include <hpvi/output/tables.h>
 
 #include <cmath>
 #include <filesystem>
@@ -218,7 +219,13 @@ TEST(MissingBound, LeavesTheLastOneInTheSummary)
   const auto add = [&](const Overrides &entries)
   {
     const Scene<2> scene = scene_of(entries);
-    AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { summary.add(step, {}); });
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          Tables<2> tables;
+          tables.add(step);
+          summary.add(step, tables.convergence.last);
+        });
     return summary.json(scene, {});
   };
   const std::string before = add(with(graded, {{"Geometry/Grading levels", "0"}}));

@@ -137,7 +137,7 @@ struct LastStep
   {
     Tables<2> tables;
     tables.add(step);
-    return tables.last_row();
+    return tables.convergence.last;
   }
 
   std::vector<ProbeValue<2>> probes;
@@ -363,12 +363,7 @@ TEST(Intervals, ReachTablesAndLimits)
         EXPECT_NEAR(relative_half_width(step), 2e-3 / std::hypot(u[0].value, u[1].value), 1e-15);
         const Record row = LastStep::row_of(step);
         const auto value = [&](const std::string &name)
-        {
-          for (const auto &[column, field] : row)
-            if (column == name)
-              return std::stod(field);
-          return -1.;
-        };
+        { return number_of(row, name).value_or(-1); };
         EXPECT_NEAR(value("friction_resultant_bound"), 0.013, 1e-14);
         EXPECT_EQ(value("core_ux_bound"), 1e-3);
         EXPECT_EQ(value("core_uy_bound"), 2e-3);

@@ -2,11 +2,13 @@
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/summary.h>
+#include <hpvi/output/tables.h>
 
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #include <boost/property_tree/json_parser.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -41,7 +43,12 @@ TEST(Summary, HasNullForWhatIsNoNumber)
         odd.relative_bound = infinity;
         odd.energies.energy = -infinity;
         odd.equilibrium.force_imbalance = std::numeric_limits<double>::quiet_NaN();
-        summary.add(odd, {{"infinite", "-inf"}, {"nan", "nan"}, {"word", "infinite"}});
+        Tables<2> tables;
+        tables.add(odd);
+        Record row = tables.convergence.last;
+        row.insert(row.end(),
+                   {{"infinite", -infinity}, {"nan", std::nan("")}, {"word", "infinite"}});
+        summary.add(odd, row);
       });
   const auto tree = parsed(summary.json(scene, {"summary.json"}));
   for (const char *const name :

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 #include <hpvi/base/cores.h>
 #include <hpvi/base/input_error.h>
-#include <hpvi/output/sweep_table.h>
+#include <hpvi/output/record.h>
 #include <hpvi/reader/input/sweep.h>
 
 #include <atomic>
+#include <cmath>
 #include <stdexcept>
 
 namespace
@@ -80,13 +81,33 @@ TEST(Sweeps, GiveEachSceneItsValues)
 TEST(Sweeps, TellOfAllInOneTable)
 {
   const std::string table =
-      sweep_csv({{{"A/B", "1, \"2\""}, {"directory", "B=1"}, {"status", "failed"}},
-                 {{"A/B", "3"}, {"directory", "B=3,C=4"}, {"status", "done"}, {"step", "7"}}});
+      csv({{{"A/B", "1, \"2\""}, {"directory", "B=1"}, {"status", "failed"}},
+           {{"A/B", "3"}, {"directory", "B=3,C=4"}, {"status", "done"}, {"step", 7U}}});
   EXPECT_EQ(table, "A/B,directory,status,step\n\"1, \"\"2\"\"\",B=1,failed,\n"
                    "3,\"B=3,C=4\",done,7\n");
-  EXPECT_EQ(swept_directories(table), Texts({"B=1", "B=3,C=4"}));
-  EXPECT_EQ(swept_directories("a,b\n1,2\n"), Texts());
-  EXPECT_EQ(swept_directories(""), Texts());
+  EXPECT_EQ(csv(records(table)), table);
+  EXPECT_EQ(words_of(records(table).at(1), "directory"), "B=3,C=4");
+  EXPECT_TRUE(records("").empty());
+}
+
+/** What is read is written as it was, and a number is one only where that is so. */
+TEST(Records, KeepWhatStandsInAFile)
+{
+  const std::vector<std::string> fields{"",    "7",      "1e+05", "-0",
+                                        "0.1", "1e-300", "007",   "0.0",
+                                        "nan", "-inf",   "1e400", "99999999999999999999"};
+  for (const std::string &field : fields)
+  {
+    const Value value = value_from(field);
+    EXPECT_EQ(text(value), field);
+    const std::size_t kind = &field - fields.data();
+    EXPECT_EQ(value.index(), kind == 0 ? 0U : kind == 1 ? 1U : kind < 6 ? 2U : 3U) << field;
+  }
+  EXPECT_EQ(text(Value(std::nan(""))), "");
+  EXPECT_EQ(json_object({{"a", "7"}, {"b", 7U}, {"c", 0.1}, {"d", ""}, {"e", Value()}}),
+            "{\n    \"a\": \"7\",\n    \"b\": 7,\n    \"c\": 0.1,\n    \"d\": null,\n    \"e\": "
+            "null\n  }");
+  EXPECT_EQ(records("a,b\n1,2\n3\n4,5\n").size(), 1U);
 }
 
 TEST(Cores, ShareAllWork)

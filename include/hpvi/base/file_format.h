@@ -2,6 +2,7 @@
 #ifndef hpvi_file_format_h
 #define hpvi_file_format_h
 
+#include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -34,6 +35,9 @@ public:
 private:
   const std::string name, first_line, remedy;
 };
+
+/** Of a file; empty where there is none. */
+std::string content_of(const std::filesystem::path &file);
 
 /** The entries of a scene for which @p counts holds, as "Section/Entry = value", from scene.prm. */
 std::vector<std::string>

@@ -2,19 +2,20 @@
 #ifndef hpvi_contact_table_h
 #define hpvi_contact_table_h
 
+#include <hpvi/output/record.h>
 #include <hpvi/results/contact_state.h>
 
-#include <string>
 #include <vector>
 
 namespace hpvi
 {
 /**
- * `contact-NN.csv`: the points of each contact boundary, along its tangent; in space the tangential columns
+ * Rows of `contact-NN.csv`: the points of each contact boundary, along its tangent; in space the tangential columns
  * are vectors along the axes of the body, with the suffixes _x, _y, _z.
  */
 template <int dim>
-std::string contact_table(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact);
+std::vector<Record> contact_rows(const Scene<dim> &scene,
+                                 const std::vector<ContactState<dim>> &contact);
 } // namespace hpvi
 
 #endif

@@ -17,9 +17,9 @@ Record probe_record(const StepReport<dim> &step);
 template <int dim>
 std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, unsigned int step);
 
-/** A table of the points along one line. */
+/** Its rows: the points along one line. */
 template <int dim>
-std::string probe_table(const ProbeLine<dim> &line);
+std::vector<Record> probe_rows(const ProbeLine<dim> &line);
 } // namespace hpvi
 
 #endif

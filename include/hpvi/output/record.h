@@ -5,25 +5,42 @@
 #include <hpvi/base/formatting.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace hpvi
 {
-/** Names and values of one row of a table; an empty value is an empty field. */
-using Record = std::vector<std::pair<std::string, std::string>>;
+/** A field of a table: nothing, a whole number, a number, which is nothing where it is infinite or NaN, or words. */
+using Value = std::variant<std::monostate, std::uint64_t, double, std::string>;
 
-/** A field; empty where @p value is infinite or NaN. */
-std::string known(double value);
+/** Names and values of one row of a table. */
+using Record = std::vector<std::pair<std::string, Value>>;
 
-/** Of a column; empty where there is none. */
-std::string value_of(const Record &record, const std::string &column);
+/** As it stands in a file: that of nothing is empty. */
+std::string text(const Value &value);
 
-/** Comma-separated, with the names of the last record as head. */
+/** Of which text() makes @p field. */
+Value value_from(const std::string &field);
+
+/** None of nothing, and of words that are none. */
+std::optional<double> number(const Value &value);
+
+/** Of a column; nothing where there is none. */
+Value value_of(const Record &record, const std::string &column);
+std::string words_of(const Record &record, const std::string &column);
+std::optional<double> number_of(const Record &record, const std::string &column);
+
+/**
+ * Comma-separated below a head. Columns of rows may differ: those of all are there, in the order in which they first come, with
+ * empty fields where a row has none. Fields with commas or quotes stand in quotes.
+ */
 std::string csv(const std::vector<Record> &records);
 
-/** The rows below the head of what csv() wrote; one that is not whole is none. */
+/** The rows below the head of what csv() wrote, up to one that is not whole. */
 std::vector<Record> records(const std::string &csv);
 
 /** A file that grows with every step, and how many of its first bytes the last change has left. */
@@ -33,11 +50,13 @@ struct GrowingText
   std::size_t same = 0;
 };
 
-/** Add a line to a table, the first below a head. */
-void add_row(GrowingText &table, const Record &row);
+/** A file of rows that all have the columns of the first one. */
+struct GrowingTable : GrowingText
+{
+  Record last; ///< of its rows
 
-/** Add several at once. */
-void add_rows(GrowingText &table, const std::vector<Record> &rows);
+  void add(const std::vector<Record> &rows);
+};
 
 /** An array of JSON, each item on a line of its own. */
 template <class Lines>
@@ -49,14 +68,14 @@ std::string json_lines(const Lines &lines)
   return "[" + list + (list.empty() ? "]" : "\n  ]");
 }
 
-/** As JSON, which knows neither infinity nor NaN: there it has null. */
-std::string json_number(double value);
+/** As JSON, where nothing and no words are null. */
+std::string json_value(const Value &value);
 
-/** As an object of JSON, with null for an empty field and for what json_number() has no digits for. */
+/** As an object of JSON. */
 std::string json_object(const Record &record);
 
 /** A whole file of JSON: an object of these members, whose values are JSON themselves. */
-std::string json_file(const Record &members);
+std::string json_file(const std::vector<std::pair<std::string, std::string>> &members);
 } // namespace hpvi
 
 #endif

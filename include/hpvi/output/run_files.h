@@ -7,7 +7,6 @@
 
 #include <boost/property_tree/ptree.hpp>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +31,8 @@ struct RunFiles
 /** Reads them in space of @p dim dimensions; @p summary is the text of summary.json. Throws InputError where that is none. */
 RunFiles read_run(const std::string &directory, const std::string &summary, unsigned int dim);
 
-/** Empty where there is no such file. */
-std::string content_of(const std::filesystem::path &file);
+/** Nothing where @p text is no JSON. */
+std::optional<JsonTree> json_tree(const std::string &text);
 
 /** The member of this very name, where it is there and not null; paths of names are none, for names of boundaries have points. */
 const JsonTree *member(const JsonTree &tree, const std::string &name);
@@ -41,9 +40,6 @@ const JsonTree *member(const JsonTree &tree, const std::string &name);
 /** Of that; empty. */
 std::string words_of(const JsonTree &tree, const std::string &name);
 std::optional<double> number_of(const JsonTree &tree, const std::string &name);
-
-/** Of a field that may be empty. */
-std::optional<double> number(const std::string &field);
 } // namespace hpvi
 
 #endif

@@ -45,8 +45,8 @@ struct Summary
   };
   Ending ending;
 
-  /** Begin with steps of convergence.csv that are finished, and load steps of loading.csv. */
-  void take_up(const std::vector<Record> &rows, const std::vector<Record> &load_steps);
+  /** Begin with steps of convergence.csv that are finished, and the last row of loading.csv. */
+  void take_up(const std::vector<Record> &rows, const Record &last_load);
 
   /** Count a finished step, whose row is @p row. */
   template <int dim>

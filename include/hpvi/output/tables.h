@@ -24,22 +24,16 @@ public:
 
   /**
    * Begins with the rows of the first @p n_steps steps of what files hold, as they stand there, the last of them the end of a load
-   * step where there @p is_history; returns those of convergence(). Throws InputError where they are not all there.
+   * step where there @p is_history; returns those of convergence. Throws InputError where they are not all there.
    */
   std::vector<Record> take_up(unsigned int n_steps, bool is_history,
                               const std::function<std::string(const std::string &)> &content_of);
 
-  const Record &last_row() const; ///< of convergence()
-  const GrowingText &convergence() const;
-  const GrowingText &degrees() const;
-  const GrowingText &forces() const;
-  const GrowingText &loading() const;
+  GrowingTable convergence, degrees, forces, loading; ///< the files of these names
 
 private:
   void add_degrees();
 
-  Record row;
-  GrowingText rows, degree_rows, force_rows, load_steps;
   std::vector<std::vector<dealii::types::global_dof_index>> elements; ///< by step and degree
   std::size_t n_columns = 0; ///< the highest degree so far and 1
 };

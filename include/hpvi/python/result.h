@@ -2,6 +2,7 @@
 #ifndef hpvi_python_result_h
 #define hpvi_python_result_h
 
+#include <hpvi/output/record.h>
 #include <hpvi/python/scene_text.h>
 
 #include <functional>
@@ -13,9 +14,6 @@
 
 namespace hpvi
 {
-/** Rows of a table, each as names and texts: what Record is, without headers of deal.II. */
-using Rows = std::vector<std::vector<std::pair<std::string, std::string>>>;
-
 /** The cells of a step, in the order of all results by cell. */
 struct MeshArrays
 {
@@ -43,14 +41,15 @@ public:
 
   virtual unsigned int dimension() const = 0;
   std::string length_unit, stress_unit;
-  Rows steps;                        ///< of convergence.csv
+  std::vector<Record> steps;         ///< of convergence.csv
   std::string stopped_by;            ///< why there is no next step; empty: there is one
   std::vector<std::string> warnings; ///< of the last step
 
-  virtual Rows contact() const = 0; ///< contact-NN.csv
-  virtual Rows forces() const = 0;  ///< of forces.csv
-  virtual Rows loading() const = 0; ///< loading.csv; empty without a history
-  virtual std::vector<std::pair<std::string, Rows>> probe_lines() const = 0; ///< by name
+  virtual std::vector<Record> contact() const = 0; ///< contact-NN.csv
+  virtual std::vector<Record> forces() const = 0;  ///< of forces.csv
+  virtual std::vector<Record> loading() const = 0; ///< loading.csv; empty without a history
+  virtual std::vector<std::pair<std::string, std::vector<Record>>>
+  probe_lines() const = 0; ///< by name
   virtual MeshArrays mesh() const = 0;
   /** In the body of this name; empty: in any. Throws std::invalid_argument where there is none of it. */
   virtual PointArrays at(const std::vector<double> &points, const std::string &body) const = 0;

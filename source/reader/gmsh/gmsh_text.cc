@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/gmsh_text.h>
 
@@ -39,25 +40,19 @@ std::string in_quotes(const std::string_view text)
 }
 
 /** A device would be read for ever. */
-std::string content_of(const std::string &path, const MeshComplaint &complain)
+std::string checked_content(const std::string &path, const MeshComplaint &complain)
 {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     complain("is a directory; name a mesh file of Gmsh (.msh)");
   const bool is_file = std::filesystem::is_regular_file(path, error);
-  std::ifstream stream(path, std::ios::binary);
-  if (!is_file || !stream.is_open())
+  if (!is_file || !std::ifstream(path))
     complain("cannot be read; check the name and the permissions of the file");
   const std::uintmax_t limit = 1 << 30, size = std::filesystem::file_size(path, error);
   if (error || size > limit)
     complain(
         "is larger than a gigabyte; name a coarse mesh, cells are bisected where they need it");
-  std::string content(size, '\0');
-  stream.read(content.data(), content.size());
-  if (stream.bad())
-    complain("cannot be read; check the permissions of the file");
-  content.resize(stream.gcount());
-  return content;
+  return content_of(path);
 }
 
 bool ends_with(const std::string &text, const std::string &end)
@@ -66,7 +61,8 @@ bool ends_with(const std::string &text, const std::string &end)
 }
 } // namespace
 
-GmshText::GmshText(const std::string &path) : complain(path), content(content_of(path, complain))
+GmshText::GmshText(const std::string &path)
+    : complain(path), content(checked_content(path, complain))
 {
   if (content.find_first_not_of(" \t\r\n") == std::string::npos)
     complain("is empty; write it anew with Gmsh");
