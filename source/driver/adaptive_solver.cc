@@ -202,13 +202,13 @@ void AdaptiveSolver<dim>::run_steps(
     solve();
     estimate_error();
     StepReport<dim> step = decide_and_report();
-    step.stopped_by = end_of_run();
+    step.stopped_by = {end_of_run()};
     if (!bound && (!step.stopped_by.empty() || may_meet_tolerance(scene, history)))
     {
       bound = bound_of_step();
       add_bound(step);
       count(step);
-      step.stopped_by = end_of_run();
+      step.stopped_by = {end_of_run()};
     }
     finished = !step.stopped_by.empty();
     if (finished)
@@ -378,17 +378,18 @@ void AdaptiveSolver<dim>::resume(const RunState<dim> &state)
   if (!has_late_bound())
     bound = bound_of_step();
   refinement = mark();
-  std::string limit = end_of_run();
-  if (!bound && limit == "round-off") // what u_N misses of the data may be more
+  Stop limit = end_of_run();
+  if (!bound && limit == Stop::round_off) // what u_N misses of the data may be more
   {
     bound = bound_of_step();
     limit = end_of_run();
   }
-  if (!limit.empty())
-    format.reject(state.name, "there is nothing to go on with after step " +
-                                  std::to_string(history.size()) + ": " +
-                                  (limit == "round-off" ? "exact to round-off"
-                                                        : "Adaptivity/" + limit + " ends the run"));
+  if (limit != Stop::none)
+    format.reject(state.name,
+                  "there is nothing to go on with after step " + std::to_string(history.size()) +
+                      ": " +
+                      (limit == Stop::round_off ? "exact to round-off"
+                                                : "Adaptivity/" + text({limit}) + " ends the run"));
   refine();
   backend->times = {};
 }
@@ -428,7 +429,7 @@ StepReport<dim> AdaptiveSolver<dim>::decide_and_report()
       bound = bound_of_step();
     step.emplace(report());
   };
-  if (pool_size() > 1 && end_of_run().empty() && !may_meet_tolerance(scene, history))
+  if (pool_size() > 1 && end_of_run() == Stop::none && !may_meet_tolerance(scene, history))
     next = backend->ahead(refinement);
   if (next)
     solve_next_beside(report_all);
@@ -606,16 +607,17 @@ void AdaptiveSolver<dim>::count(StepReport<dim> &step)
 
 /** What makes the last step the last of all; else empty. */
 template <int dim>
-std::string AdaptiveSolver<dim>::end_of_run() const
+Stop AdaptiveSolver<dim>::end_of_run() const
 {
   const Field<dim> &field = backend->field();
-  const std::string limit = reached_limit(
+  const Stop limit = reached_limit(
       scene, history,
       {backend->size().n_free, std::max(field.largest_displacement(), data.displacement),
        backend->missed(known_bound().bound), [&]() { return backend->round_off_estimate(); },
        !bound, [&]() { return backend->resolves_data(); }});
-  return limit.empty() && refinement.is_empty(backend->degrees()) ? nothing_marked(scene.adaptivity)
-                                                                  : limit;
+  return limit == Stop::none && refinement.is_empty(backend->degrees())
+             ? nothing_marked(scene.adaptivity)
+             : limit;
 }
 
 template class AdaptiveSolver<2>;

@@ -85,31 +85,30 @@ void check_numbers(const Scene<dim> &scene, const double displacement, const Ene
 }
 
 template <int dim>
-std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,
-                          const LastSolution &last)
+Stop reached_limit(const Scene<dim> &scene, const History<dim> &history, const LastSolution &last)
 {
   const Adaptivity &limits = scene.adaptivity;
   const PastStep<dim> &step = history.back();
   if (is_exact_to_round_off(scene, history, last))
-    return "round-off";
+    return Stop::round_off;
   const bool on_bound = limits.tolerance_on == Indicator::bound &&
                         (last.is_bound_open || !std::isnan(step.relative_bound));
   const double error = !limits.tolerance_column.empty() ? step.relative_half_width
                        : on_bound                       ? step.relative_bound
                                                         : step.relative_estimate;
   if (error < limits.tolerance && last.resolves_data()) // never without half-width, or bound yet
-    return "Tolerance";
+    return Stop::tolerance;
   if (history.size() >= limits.maximum_steps)
-    return "Maximum steps";
+    return Stop::maximum_steps;
   if (last.n_free >= limits.maximum_unknowns)
-    return "Maximum unknowns";
+    return Stop::maximum_unknowns;
   if (limits.maximum_seconds > 0 && step.seconds >= limits.maximum_seconds)
-    return "Maximum seconds";
-  return {};
+    return Stop::maximum_seconds;
+  return Stop::none;
 }
 
 template void check_numbers(const Scene<2> &, double, const Energies &);
 template void check_numbers(const Scene<3> &, double, const Energies &);
-template std::string reached_limit(const Scene<2> &, const History<2> &, const LastSolution &);
-template std::string reached_limit(const Scene<3> &, const History<3> &, const LastSolution &);
+template Stop reached_limit(const Scene<2> &, const History<2> &, const LastSolution &);
+template Stop reached_limit(const Scene<3> &, const History<3> &, const LastSolution &);
 } // namespace hpvi

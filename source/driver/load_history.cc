@@ -62,7 +62,7 @@ struct LoadHistory<dim>::Evolution
   void go_on_after(const RunState<dim> &state);
   bool keeps_mesh() const;
   StepReport<dim> report(const StepReport<dim> &step) const;
-  std::string reason(const std::string &stopped_by) const;
+  StopReason reason(Stop stop) const;
   void add_warnings(StepReport<dim> &report) const;
   void conclude(StepReport<dim> &report);
   PastSlip<dim> slip_so_far() const;
@@ -172,11 +172,11 @@ bool LoadHistory<dim>::Evolution::keeps_mesh() const
 
 /** Why the load step is done, where that is no limit that the scene names. */
 template <int dim>
-std::string LoadHistory<dim>::Evolution::reason(const std::string &stopped_by) const
+StopReason LoadHistory<dim>::Evolution::reason(const Stop stop) const
 {
-  if (stopped_by == "Tolerance" && scene.adaptivity.tolerance == 0)
-    return "error of load step " + std::to_string(finished.first);
-  return stopped_by == "Maximum steps" && keeps_mesh() ? "Adapt = first step" : stopped_by;
+  if (stop == Stop::tolerance && scene.adaptivity.tolerance == 0)
+    return {Stop::load_step, finished.first};
+  return {stop == Stop::maximum_steps && keeps_mesh() ? Stop::first_step : stop};
 }
 
 /** @p step, one of the load step, as one of the whole run. */
@@ -194,7 +194,7 @@ StepReport<dim> LoadHistory<dim>::Evolution::report(const StepReport<dim> &step)
 template <int dim>
 void LoadHistory<dim>::Evolution::add_warnings(StepReport<dim> &report) const
 {
-  if (report.stopped_by != "round-off")
+  if (report.stopped_by.stop != Stop::round_off)
     report.warnings = joined(report.warnings, load_step_warnings(report.relative_estimate));
   const LoadStep &load = finished.load;
   if (load.number == scene.loading.steps)
@@ -216,8 +216,8 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
   report.load = finished.load;
   finished.n_steps = report.number;
   finished.seconds = report.seconds;
-  report.stopped_by = reason(report.stopped_by);
-  if (finished.first == 0 && report.stopped_by != "round-off")
+  report.stopped_by = reason(report.stopped_by.stop);
+  if (finished.first == 0 && report.stopped_by.stop != Stop::round_off)
   {
     finished.first = finished.load.number;
     finished.tolerance = 1.2 * report.relative_estimate;

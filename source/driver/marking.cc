@@ -136,22 +136,22 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
 // @sect3{When nothing is marked}
 //
 // The entry that a user may want to change then.
-std::string nothing_marked(const Adaptivity &adaptivity)
+Stop nothing_marked(const Adaptivity &adaptivity)
 {
   switch (adaptivity.method)
   {
   case Method::hap2:
   case Method::hap3:
   case Method::hap4:
-    return "hap threshold";
+    return Stop::hap_threshold;
   case Method::hpa1:
-    return "hpa1 bisected fraction";
+    return Stop::hpa1_bisected;
   case Method::hpa2:
-    return "hpa2 marked fraction";
+    return Stop::hpa2_marked;
   case Method::hpa3:
-    return "hpa3 threshold";
+    return Stop::hpa3_threshold;
   default:
-    return "Maximum degree";
+    return Stop::maximum_degree;
   }
 }
 } // namespace hpvi

@@ -3,6 +3,7 @@
 #include <hpvi/base/version.h>
 #include <hpvi/output/complete_run.h>
 #include <hpvi/output/run_files.h>
+#include <hpvi/output/summary.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ JsonTree summary_in(const std::filesystem::path &directory)
 bool is_complete_run(const std::filesystem::path &directory)
 {
   const JsonTree summary = summary_in(directory);
-  return words_of(summary, "status") == "done" &&
+  return words_of(summary, "status") == text(RunStatus::done) &&
          words_of(summary, "program") == "hpvi " + version();
 }
 

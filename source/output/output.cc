@@ -176,7 +176,7 @@ void Output<dim>::open(const std::string &path, const unsigned int n_steps)
   }
   catch (const InputError &error)
   {
-    give_up("failed", error.what());
+    give_up(RunStatus::failed, error.what());
     throw;
   }
   is_usable = true;
@@ -439,7 +439,7 @@ void Output<dim>::write_report()
 template <int dim>
 double Output<dim>::finish()
 {
-  summary.status = "done";
+  summary.status = RunStatus::done;
   write_together(communicator,
                  [&]()
                  {
@@ -453,7 +453,7 @@ double Output<dim>::finish()
 }
 
 template <int dim>
-void Output<dim>::give_up(const std::string &status, const std::string &message)
+void Output<dim>::give_up(const RunStatus status, const std::string &message)
 {
   summary.status = status;
   summary.message = message;

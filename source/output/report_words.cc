@@ -6,6 +6,7 @@
 #include <hpvi/output/report_words.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/stop_reason.h>
+#include <hpvi/output/summary.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,17 +68,17 @@ std::string ending_words(const JsonTree &summary, const Adaptivity &adaptivity)
       steps == "0" ? " No step was finished: there is no result."
                    : " What follows is what step " + steps +
                          ", the last one that was finished, left: no result of this scene.";
-  if (status == "done")
+  if (status == text(RunStatus::done))
     return element("p",
                    "Done: " +
-                       stop_reason(words_of(summary, "stopped_by"), adaptivity,
+                       stop_reason(stop_reason_from(words_of(summary, "stopped_by")), adaptivity,
                                    member(summary, "error_bound")) +
                        ".",
                    "ending") +
            "\n";
   return element("p",
-                 (status == "failed" ? "This run failed: " + message + "."
-                  : status == "interrupted"
+                 (status == text(RunStatus::failed) ? "This run failed: " + message + "."
+                  : status == text(RunStatus::interrupted)
                       ? "This run was interrupted: " + message + "; hpvi --resume goes on with it."
                       : "This run did not come to its end: it was killed, or "
                         "the machine stopped; hpvi --resume goes on with it.") +

@@ -4,21 +4,22 @@
 
 namespace hpvi
 {
-std::string stop_reason(const std::string &stopped_by, const Adaptivity &adaptivity,
+std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivity,
                         const bool has_bound)
 {
-  if (stopped_by == "round-off")
+  const Stop stop = stopped_by.stop;
+  if (stop == Stop::round_off)
     return "stopped: exact to round-off";
-  if (stopped_by == "Adapt = first step")
+  if (stop == Stop::first_step)
     return "solved once, as Loading/Adapt = first step says";
-  if (stopped_by == "Tolerance" && !adaptivity.tolerance_column.empty())
+  if (stop == Stop::tolerance && !adaptivity.tolerance_column.empty())
     return "done: " + adaptivity.tolerance_column +
            " is guaranteed to Adaptivity/Tolerance of its value";
-  if (stopped_by == "Tolerance" && adaptivity.is_default_tolerance)
+  if (stop == Stop::tolerance && adaptivity.is_default_tolerance)
     return std::string("done: the error ") +
            (has_bound && adaptivity.tolerance_on == Indicator::bound ? "" : "indicator ") +
            "is below " + default_tolerance + ", the default of Adaptivity/Tolerance";
-  const bool is_entry = stopped_by.find("error of load step") == std::string::npos;
-  return "stopped by " + (is_entry ? "Adaptivity/" + stopped_by : "the " + stopped_by);
+  return "stopped by " + std::string(stop == Stop::load_step ? "the " : "Adaptivity/") +
+         text(stopped_by);
 }
 } // namespace hpvi

@@ -56,6 +56,13 @@ std::string bound_json(const Record &row)
 }
 } // namespace
 
+std::string text(const RunStatus status)
+{
+  constexpr const char *words[] = {"not begun", "running",     "done",
+                                   "failed",    "interrupted", "refused"};
+  return words[static_cast<unsigned int>(status)];
+}
+
 void Summary::take_up(const std::vector<Record> &rows, const Record &last_load)
 {
   const std::array<double *, 9> stages{{&times.setup, &times.assemble, &times.factor, &times.qp,
@@ -129,8 +136,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
   Record seconds = stage_record(times);
   seconds.emplace_back("report", rounded(seconds_of_report, 6));
   std::vector<std::pair<std::string, std::string>> entries{
-      {"status", json_string(status)},
-      {"stopped_by", json_value(stopped_by)},
+      {"status", json_string(text(status))},
+      {"stopped_by", json_value(text(stopped_by))},
       {"message", json_value(message)},
       {"scene", json_string(began_elsewhere ? fs::path(scene_file).stem().string() : scene.name)},
       {"scene_file", json_value(began_elsewhere    ? scene_file

@@ -244,7 +244,7 @@ Record loading_record(const StepReport<dim> &step)
     for (const ContactMode mode : {ContactMode::open, ContactMode::slip, ContactMode::stick})
       record.emplace_back(mode_name(mode) + "_" + step.scene.boundaries[state.boundary].name,
                           length(state, mode));
-  record.emplace_back("stopped_by", step.stopped_by);
+  record.emplace_back("stopped_by", text(step.stopped_by));
   record.emplace_back("released_energy", step.load.released);
   record.emplace_back("unbalanced_energy", step.load.unbalanced);
   const Record displacements = prescribed_displacements(step);

@@ -115,7 +115,8 @@ std::string missing_bound_in_words(const StepReport<dim> &step, const std::strin
 {
   const Adaptivity &limits = step.scene.adaptivity;
   const bool is_in_its_place = limits.tolerance > 0 && limits.tolerance_on == Indicator::bound &&
-                               limits.tolerance_column.empty() && step.stopped_by != "round-off",
+                               limits.tolerance_column.empty() &&
+                               step.stopped_by.stop != Stop::round_off,
              is_wanted = step.scene.error_bound && !step.primal;
   if (step.bound || step.no_bound.empty() || !(is_wanted || is_in_its_place))
     return {};
@@ -273,13 +274,13 @@ double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
   }
   catch (const Interruption &interruption)
   {
-    output.give_up("interrupted", interruption.what());
+    output.give_up(RunStatus::interrupted, interruption.what());
     throw Interruption(interruption.signal,
                        "; " + output.safe_steps() + " in " + printable(directory));
   }
   catch (const std::exception &error)
   {
-    output.give_up("failed", failure_line(error)); // the finished steps stay
+    output.give_up(RunStatus::failed, failure_line(error)); // the finished steps stay
     throw;
   }
   return output.finish();

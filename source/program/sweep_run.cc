@@ -62,7 +62,7 @@ private:
   void conclude();
   std::string directory_of(unsigned int k) const;
   Record last_row_of(unsigned int k) const;
-  unsigned int count(const std::string &status) const;
+  unsigned int count(RunStatus status) const;
 
   const Clock::time_point start = Clock::now();
   const CommandLine &command_line;
@@ -206,7 +206,7 @@ void Sweep<dim>::look_for_results()
     if (input_files_of(directory_of(k)) != input_files_of(*scenes[k]))
       reject("its " + printable(swept[k].directory) +
              " has results of a mesh file or a reference solution that has changed");
-    runs[k].status = "done";
+    runs[k].status = RunStatus::done;
     last_rows[k] = last_row_of(k);
   }
 }
@@ -220,7 +220,7 @@ void Sweep<dim>::write_table()
   {
     rows.emplace_back(swept[k].overrides.begin(), swept[k].overrides.end());
     rows.back().emplace_back("directory", swept[k].directory);
-    rows.back().emplace_back("status", runs[k].status);
+    rows.back().emplace_back("status", text(runs[k].status));
     rows.back().insert(rows.back().end(), last_rows[k].begin(), last_rows[k].end());
   }
   if (const std::error_code error = directory->write("sweep.csv", csv(rows)))
@@ -232,7 +232,7 @@ void Sweep<dim>::write_table()
 template <int dim>
 void Sweep<dim>::finish(const unsigned int k)
 {
-  if (runs[k].status != "refused") // else what is there is of an earlier run
+  if (runs[k].status != RunStatus::refused) // else what is there is of an earlier run
     last_rows[k] = last_row_of(k);
   std::cout << runs[k].line(swept[k].directory, width, last_rows[k]) << std::endl;
   if (seconds_since(written) > 1)
@@ -280,7 +280,7 @@ void Sweep<dim>::print_head(const std::size_t n_in_turn) const
 }
 
 template <int dim>
-unsigned int Sweep<dim>::count(const std::string &status) const
+unsigned int Sweep<dim>::count(const RunStatus status) const
 {
   return std::count_if(runs.begin(), runs.end(),
                        [&](const SweptRun &run) { return run.status == status; });
@@ -291,9 +291,9 @@ template <int dim>
 void Sweep<dim>::conclude()
 {
   write_table();
-  const std::string done = std::to_string(count("done")) + " of " + std::to_string(swept.size()) +
-                           (swept.size() == 1 ? " scene is" : " scenes are") + " done in " +
-                           printable(home, 400);
+  const std::string done =
+      std::to_string(count(RunStatus::done)) + " of " + std::to_string(swept.size()) +
+      (swept.size() == 1 ? " scene is" : " scenes are") + " done in " + printable(home, 400);
   if (const int signal = interrupting_signal(); signal != 0)
     throw Interruption(signal, "; " + done + ", and the same command goes on with the others");
   double sum = 0;
@@ -304,10 +304,10 @@ void Sweep<dim>::conclude()
             << " s\na row for each in " << home << "/sweep.csv" << std::endl;
   check_standard_output("; the results in " + printable(home, 400) + " are complete");
   const std::string others = ", and sweep.csv says which";
-  if (const unsigned int n = count("failed"))
+  if (const unsigned int n = count(RunStatus::failed))
     throw NumericalFailure("hpvi: " + std::to_string(n) + " of " + std::to_string(swept.size()) +
                            " scenes failed; " + done + others);
-  if (const unsigned int n = count("refused"))
+  if (const unsigned int n = count(RunStatus::refused))
     throw InputError("hpvi: " + std::to_string(n) + " of " + std::to_string(swept.size()) +
                      " scenes were refused; " + done + others);
 }

@@ -63,16 +63,16 @@ SweptRun SweptRun::solved(const Scene<dim> &scene, const std::string &directory)
   try
   {
     run_silently<dim>(scene, directory, listener);
-    run.status = "done";
+    run.status = RunStatus::done;
   }
   catch (const Interruption &)
   {
     if (has_begun)
-      run.status = "interrupted";
+      run.status = RunStatus::interrupted;
   }
   catch (const std::exception &error)
   {
-    run.status = dynamic_cast<const InputError *>(&error) ? "refused" : "failed";
+    run.status = dynamic_cast<const InputError *>(&error) ? RunStatus::refused : RunStatus::failed;
     run.message = failure_line(error);
     run.is_short_of_memory = is_out_of_memory(error);
   }
@@ -93,7 +93,7 @@ std::string SweptRun::line(const std::string &name, const std::size_t width,
   const std::string unknowns = words_of(last_row, "dofs_free");
   std::ostringstream time;
   time << std::fixed << std::setprecision(2) << seconds;
-  std::string result = padded(name, width) + columns(status, energy ? text(*energy, 8) : "-",
+  std::string result = padded(name, width) + columns(text(status), energy ? text(*energy, 8) : "-",
                                                      unknowns.empty() ? "-" : unknowns,
                                                      was_done ? "before" : time.str());
   if (was_postponed)

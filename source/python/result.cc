@@ -208,7 +208,7 @@ void RunOf<dim>::take(const StepReport<dim> &step)
   steps.push_back(tables.convergence.last);
   if (step.load.number > 0 && !step.stopped_by.empty())
     loads.push_back(tables.loading.last);
-  stopped_by = step.stopped_by;
+  stopped_by = text(step.stopped_by);
   warnings = texts(step.warnings);
 }
 
@@ -353,20 +353,20 @@ std::shared_ptr<Result> run(const ParameterFile &file, const std::string &direct
   {
     result->stopped_by = "callback";
     if (output)
-      output->give_up("interrupted", "hpvi: stopped by the callback");
+      output->give_up(RunStatus::interrupted, "hpvi: stopped by the callback");
   }
   catch (const BrokenOff &end)
   {
     result->last.reset();
     if (output)
-      output->give_up("interrupted", end.what());
+      output->give_up(RunStatus::interrupted, end.what());
     throw;
   }
   catch (const std::exception &error)
   {
     result->last.reset();
     if (output)
-      output->give_up("failed", failure_line(error));
+      output->give_up(RunStatus::failed, failure_line(error));
     throw;
   }
   return result;

@@ -179,7 +179,7 @@ Run solve(const std::string &file, const Overrides &overrides,
             run.reasons.push_back(step.no_bound);
           else if (finished)
             finished(step);
-          if (step.stopped_by == "round-off" && step.warnings.empty())
+          if (text(step.stopped_by) == "round-off" && step.warnings.empty())
             run.steps.push_back(exact(step));
         });
   }

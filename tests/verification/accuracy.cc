@@ -27,7 +27,7 @@ std::vector<Row> rows_of(const Scene<2> &scene)
       {
         rows.push_back({step.solution().displacement_space.n_free_dofs(), step.relative_estimate,
                         step.scaled_estimate, step.seconds, step.energies.energy, step.errors,
-                        step.stopped_by});
+                        text(step.stopped_by)});
       });
   return rows;
 }

@@ -23,7 +23,7 @@ std::string digits_of(const StepReport<2> &step)
   out << std::hexfloat << step.number << ' ' << step.estimate.total() << ' '
       << step.relative_estimate << ' ' << step.energies.lagrangian << ' ' << step.energies.energy
       << ' ' << step.energies.norm << ' ' << step.energies.slack << ' ' << step.errors.energy << ' '
-      << step.reduced->qp.multiplications << ' ' << step.stopped_by;
+      << step.reduced->qp.multiplications << ' ' << text(step.stopped_by);
   for (const unsigned int p : step.solution().displacement_space.degrees())
     out << ' ' << p;
   for (const double value : step.solution().u)

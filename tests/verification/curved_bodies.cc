@@ -173,7 +173,7 @@ TEST(CurvedBodies, AreMovedBeforeTheyTouch)
                                      {"Adaptivity/Maximum steps", in_digits(most)}}),
              [&](const StepReport<2> &step)
              {
-               stopped_by = step.stopped_by;
+               stopped_by = text(step.stopped_by);
                if (stopped_by != "round-off")
                  return;
                EXPECT_EQ(texts(step.warnings), std::vector<std::string>()) << name;
@@ -212,7 +212,7 @@ TEST(CurvedBodies, EndWhereRoundOffRules)
     AdaptiveSolver<2>(scene).run(
         [&](const StepReport<2> &step)
         {
-          stopped_by = step.stopped_by;
+          stopped_by = text(step.stopped_by);
           relative = step.relative_estimate;
           seconds = step.seconds;
         });
@@ -245,7 +245,7 @@ TEST(CurvedBodies, PressAfterLoadStepsApart)
             {
               if (step.stopped_by.empty())
                 return;
-              stopped_by.push_back(step.stopped_by);
+              stopped_by.push_back(text(step.stopped_by));
               if (step.load.number < 3)
                 EXPECT_EQ(push(step), 0.) << approach.name;
               else

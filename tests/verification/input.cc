@@ -54,7 +54,7 @@ Result run(const std::string &name, const Overrides &overrides)
         [&](const StepReport<2> &step)
         {
           result.steps = step.number;
-          result.stopped_by = step.stopped_by;
+          result.stopped_by = text(step.stopped_by);
           result.relative = step.relative_estimate;
           result.scaled_estimate = step.scaled_estimate;
           result.estimate = step.estimate.total();

@@ -519,12 +519,12 @@ TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
             EXPECT_EQ(step.number, ++number);
             if (step.stopped_by.empty())
               return;
-            tolerances += step.stopped_by == "error of load step 1";
+            tolerances += text(step.stopped_by) == "error of load step 1";
             if (step.load.number == 1)
               first = step.relative_estimate;
             else
               EXPECT_TRUE(step.relative_estimate < 1.2 * first ||
-                          step.stopped_by == "Maximum steps");
+                          text(step.stopped_by) == "Maximum steps");
             elements.push_back(step.solution().displacement_space.degrees().size());
           });
   EXPECT_GE(tolerances, 2U);
@@ -550,7 +550,7 @@ TEST(LoadHistory, TakesItsToleranceWhereThereIsAnError)
             [&](const StepReport<2> &step)
             {
               if (!step.stopped_by.empty())
-                stopped_by.push_back(step.stopped_by);
+                stopped_by.push_back(text(step.stopped_by));
             });
     EXPECT_EQ(stopped_by,
               (std::vector<std::string>{"round-off", "Maximum steps", "error of load step 2",
@@ -615,7 +615,7 @@ TEST(LoadHistory, ZeroIsBesideTheLargestLoad)
                 pressure = step.solution().z.linfty_norm();
                 (step.load.number == 1 ? first : last) = step.energies.norm;
                 last_steps += step.load.number == 2;
-                stopped_by = step.stopped_by;
+                stopped_by = text(step.stopped_by);
                 seconds = step.seconds;
               });
       if (row.is_zero)
@@ -641,7 +641,7 @@ TEST(LoadHistory, AdaptsInTheFirstLoadStepThatHasAnError)
           {
             if (step.stopped_by.empty())
               return;
-            stopped_by.push_back(step.stopped_by);
+            stopped_by.push_back(text(step.stopped_by));
             elements.push_back(step.solution().displacement_space.degrees().size());
           });
   EXPECT_EQ(stopped_by[0], "round-off");

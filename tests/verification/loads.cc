@@ -366,7 +366,7 @@ TEST(UnresolvedLoads, AreWarnedOfMarkedAndLeaveNoBound)
             << step.no_bound;
         if (step.stopped_by.empty())
           return;
-        EXPECT_EQ(step.stopped_by, "Maximum steps");
+        EXPECT_EQ(text(step.stopped_by), "Maximum steps");
         EXPECT_TRUE(warns(step, "Traction on top is not resolved near ("));
         for (const auto &cell : step.solution().spaces->mesh->active_cell_iterators())
           if (cell->bounding_box().point_inside({40., 20.}))
@@ -385,7 +385,7 @@ TEST(UnresolvedLoads, DoNotEndARunAsExact)
   run(scene,
       [&](const StepReport<2> &step)
       {
-        EXPECT_NE(step.stopped_by, "round-off");
+        EXPECT_NE(text(step.stopped_by), "round-off");
         EXPECT_NEAR(step.solution().spaces->loads->sum().force[1], -2, 1e-12);
         ASSERT_TRUE(step.bound) << step.no_bound;
         EXPECT_TRUE(std::isfinite(step.bound->total));
@@ -435,7 +435,7 @@ TEST(MissedDisplacements, AreWarnedOfMarkedAndLeaveNoBound)
         {
           EXPECT_FALSE(step.bound);
           EXPECT_TRUE(warns(step, "Displacement on top lies between the nodes near (0.3"));
-          EXPECT_EQ(step.stopped_by, "Maximum steps"); // not exact
+          EXPECT_EQ(text(step.stopped_by), "Maximum steps"); // not exact
         });
     scene.adaptivity.maximum_steps = 8;
     run(scene,
@@ -461,7 +461,7 @@ TEST(MissedDisplacements, OfAGapLeaveNoBound)
       [&](const StepReport<2> &step)
       {
         EXPECT_FALSE(step.bound);
-        EXPECT_EQ(step.stopped_by, "Maximum steps");
+        EXPECT_EQ(text(step.stopped_by), "Maximum steps");
       });
 }
 
@@ -560,12 +560,12 @@ struct Known
     run(verification::scene_of(entries),
         [&](const StepReport<2> &step)
         {
-          if (!step.stopped_by.empty() && step.stopped_by != "Maximum steps")
+          if (!step.stopped_by.empty() && text(step.stopped_by) != "Maximum steps")
           {
             EXPECT_TRUE(std::none_of(step.warnings.begin(), step.warnings.end(),
                                      [](const Warning &warning)
                                      { return warning.kind == WarningKind::load; }))
-                << step.stopped_by;
+                << text(step.stopped_by);
           }
           if (!step.bound)
             return;
@@ -756,10 +756,10 @@ TEST_P(NoEnd, WhereDataAreNotResolved)
   run(verification::scene_of(GetParam().entries),
       [](const StepReport<2> &step)
       {
-        EXPECT_TRUE(step.number == 3 || step.stopped_by.empty()) << step.stopped_by;
+        EXPECT_TRUE(step.number == 3 || step.stopped_by.empty()) << text(step.stopped_by);
         if (step.number == 3)
         {
-          EXPECT_EQ(step.stopped_by, "Maximum steps");
+          EXPECT_EQ(text(step.stopped_by), "Maximum steps");
         }
       });
 }
@@ -776,6 +776,6 @@ TEST(AnEnd, IsWhereDataAreResolved)
                 {"Temperature/Expression", "if(x > 0.37, 1, 0)"}}),
         rubbing("Friction coefficient", "0.1 + 0.2*x")})
     run(verification::scene_of(smooth),
-        [](const StepReport<2> &step) { EXPECT_EQ(step.stopped_by, "Tolerance"); });
+        [](const StepReport<2> &step) { EXPECT_EQ(text(step.stopped_by), "Tolerance"); });
 }
 } // namespace

@@ -377,8 +377,10 @@ TEST(Intervals, ReachTablesAndLimits)
   PastStep<2> step{};
   step.relative_estimate = step.relative_bound = 1e-3; // not asked for
   step.estimate = 1;
-  for (const auto &[width, limit] : std::vector<std::pair<double, std::string>>{
-           {0.09, "Tolerance"}, {0.11, "Maximum steps"}, {std::nan(""), "Maximum steps"}})
+  for (const auto &[width, limit] :
+       std::vector<std::pair<double, Stop>>{{0.09, Stop::tolerance},
+                                            {0.11, Stop::maximum_steps},
+                                            {std::nan(""), Stop::maximum_steps}})
   {
     step.relative_half_width = width;
     EXPECT_EQ(reached_limit<2>(scene, {step}, {10, 1., 1., []() { return 0.; }}), limit);

@@ -215,7 +215,7 @@ TEST(ThreadsAtTheEnd, EndWhenTimeIsOver)
           [&](const StepReport<2> &step)
           {
             ++n_steps;
-            why = step.stopped_by;
+            why = text(step.stopped_by);
           });
   EXPECT_EQ(n_steps, 1U);
   EXPECT_EQ(why, "Maximum seconds");

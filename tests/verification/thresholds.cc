@@ -253,8 +253,8 @@ TEST(Thresholds, RoundOffEndsARunAtAFewTimesItself)
                                                      return round_off;
                                                    }});
         };
-        EXPECT_EQ(limit_at(2 * round_off), "round-off");
-        EXPECT_EQ(limit_at(20 * round_off), "");
+        EXPECT_EQ(limit_at(2 * round_off), Stop::round_off);
+        EXPECT_EQ(limit_at(20 * round_off), Stop::none);
         // Up to a hundred times itself where strains are below it, or where it falls no further.
         const auto limit_after =
             [&](const double before, const double estimate, const double relative)
@@ -267,11 +267,11 @@ TEST(Thresholds, RoundOffEndsARunAtAFewTimesItself)
                                                      return round_off;
                                                    }});
         };
-        EXPECT_EQ(limit_after(0, 90 * round_off, 1.1), "round-off");
-        EXPECT_EQ(limit_after(0, 90 * round_off, 0.9), "");
-        EXPECT_EQ(limit_after(0, 110 * round_off, 1.1), "");
-        EXPECT_EQ(limit_after(21 * round_off, 20 * round_off, 1e-3), "round-off");
-        EXPECT_EQ(limit_after(23 * round_off, 20 * round_off, 1e-3), "");
+        EXPECT_EQ(limit_after(0, 90 * round_off, 1.1), Stop::round_off);
+        EXPECT_EQ(limit_after(0, 90 * round_off, 0.9), Stop::none);
+        EXPECT_EQ(limit_after(0, 110 * round_off, 1.1), Stop::none);
+        EXPECT_EQ(limit_after(21 * round_off, 20 * round_off, 1e-3), Stop::round_off);
+        EXPECT_EQ(limit_after(23 * round_off, 20 * round_off, 1e-3), Stop::none);
       });
 }
 
@@ -360,7 +360,7 @@ TEST(Thresholds, LoadStepsAreAsFineAsTheFirstByTheResidualIndicator)
           first = step.relative_estimate;
         else
         {
-          EXPECT_NE(step.stopped_by, "Maximum steps");
+          EXPECT_NE(text(step.stopped_by), "Maximum steps");
           EXPECT_LE(step.relative_estimate, 1.2 * first);
         }
       });
@@ -384,9 +384,25 @@ TEST(Thresholds, ToleranceOnNoBoundIsThatOfTheIndicator)
                 {"Adaptivity/Tolerance on", on}}),
         [&](const StepReport<2> &step)
         {
-          EXPECT_EQ(step.stopped_by, "Tolerance");
+          EXPECT_EQ(text(step.stopped_by), "Tolerance");
           EXPECT_FALSE(step.no_bound.empty());
           EXPECT_EQ(texts(step.warnings), std::vector<std::string>());
         });
+}
+
+/** As a report reads them in a file. */
+TEST(StopReason, IsReadFromItsWords)
+{
+  for (unsigned int k = 0; k <= static_cast<unsigned int>(Stop::load_step); ++k)
+  {
+    const StopReason reason{static_cast<Stop>(k),
+                            static_cast<Stop>(k) == Stop::load_step ? 12U : 0U};
+    const StopReason read = stop_reason_from(text(reason));
+    EXPECT_EQ(read.stop, reason.stop) << text(reason);
+    EXPECT_EQ(read.load_step, reason.load_step);
+    EXPECT_EQ(text(read), text(reason));
+  }
+  EXPECT_EQ(text({Stop::load_step, 12}), "error of load step 12");
+  EXPECT_TRUE(stop_reason_from("callback").empty());
 }
 } // namespace

@@ -94,7 +94,7 @@ private:
   StepReport<dim> decide_and_report();
   void solve_next_beside(const std::function<void()> &report);
   StepReport<dim> report();
-  std::string end_of_run() const;
+  Stop end_of_run() const;
   void add_results(StepReport<dim> &step);
   void add_bound(StepReport<dim> &step);
   void compare_claims(StepReport<dim> &step);

@@ -2,6 +2,7 @@
 #ifndef hpvi_limits_h
 #define hpvi_limits_h
 
+#include <hpvi/driver/stop.h>
 #include <hpvi/plane/iterative_refinement.h>
 #include <hpvi/results/energies.h>
 #include <hpvi/results/warnings/history.h>
@@ -9,7 +10,6 @@
 #include <deal.II/base/types.h>
 
 #include <functional>
-#include <string>
 
 namespace hpvi
 {
@@ -38,13 +38,11 @@ void check_numbers(const Scene<dim> &scene, double displacement, const Energies 
 void check_algebraic_error(const AlgebraicError &error, double negligible);
 
 /**
- * Why the last step of @p history needs no next one: an entry of section Adaptivity, or "round-off" where the
- * indicator is that of the last bits of u_N, and so is LastSolution::missed. Empty: it does. No error is small enough while the discrete
- * problem does not see all data.
+ * Why the last step of @p history needs no next one; Stop::round_off where the indicator is that of the last bits of u_N, and so is
+ * LastSolution::missed. No error is small enough while the discrete problem does not see all data.
  */
 template <int dim>
-std::string reached_limit(const Scene<dim> &scene, const History<dim> &history,
-                          const LastSolution &last);
+Stop reached_limit(const Scene<dim> &scene, const History<dim> &history, const LastSolution &last);
 } // namespace hpvi
 
 #endif

@@ -40,9 +40,9 @@ public:
 
   /**
    * As AdaptiveSolver::run(), for all load steps in turn: StepReport::number counts on, and
-   * StepReport::stopped_by says of each load step why it is done: as AdaptiveSolver does, or "error of
-   * load step k", as small as which those after it are where the scene names no tolerance, or
-   * "Adapt = first step". The last one has the warnings of all, of each kind the worst with its load step.
+   * StepReport::stopped_by says of each load step why it is done: as AdaptiveSolver does, or
+   * Stop::load_step, as small as whose error those after it are where the scene names no tolerance, or
+   * Stop::first_step. The last one has the warnings of all, of each kind the worst with its load step.
    * Throws NumericalFailure and InputError, which name the load step.
    */
   void run(

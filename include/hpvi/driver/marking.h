@@ -2,11 +2,11 @@
 #ifndef hpvi_marking_h
 #define hpvi_marking_h
 
+#include <hpvi/driver/stop.h>
 #include <hpvi/results/legendre_smoothness.h>
 #include <hpvi/results/residual_estimator.h>
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace hpvi
@@ -31,8 +31,8 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
                 const std::vector<double> &eta,
                 const std::function<double(unsigned int cell)> &decay_rate);
 
-/** The entry of section Adaptivity for which mark() had no cell to refine. */
-std::string nothing_marked(const Adaptivity &adaptivity);
+/** That of an entry of Adaptivity for which mark() had no cell to refine. */
+Stop nothing_marked(const Adaptivity &adaptivity);
 } // namespace hpvi
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <hpvi/driver/backend.h>
 #include <hpvi/driver/finished_loads.h>
+#include <hpvi/driver/stop.h>
 #include <hpvi/results/probe_value.h>
 #include <hpvi/results/resultant.h>
 #include <hpvi/results/stress_singularity.h>
@@ -45,13 +46,13 @@ struct StepReport
   double relative_bound = 0;    ///< ErrorBound::total / |u_N|_a, NaN without it
   Energies energies{};
   std::vector<ContactState<dim>>
-      contact{};            ///< of each contact boundary, by id; the first process's
-  TrueErrors errors{};      ///< NaN where the scene gives nothing to compare with
-  StageTimes times{};       ///< of the first process
-  double seconds = 0;       ///< since the start of the run, without output and true errors
-  double peak_memory = 0;   ///< that the processes have had so far, their sum [bytes]
-  std::string stopped_by{}; ///< empty, or the limit that makes this the last step
-  Warnings warnings{};      ///< of the last step: what in the result asks for care
+      contact{};           ///< of each contact boundary, by id; the first process's
+  TrueErrors errors{};     ///< NaN where the scene gives nothing to compare with
+  StageTimes times{};      ///< of the first process
+  double seconds = 0;      ///< since the start of the run, without output and true errors
+  double peak_memory = 0;  ///< that the processes have had so far, their sum [bytes]
+  StopReason stopped_by{}; ///< what makes this the last step, if it is that
+  Warnings warnings{};     ///< of the last step: what in the result asks for care
   Equilibrium<dim> equilibrium{};
   LoadStep load{};
   std::vector<StressSample<dim>> extrema{};        ///< stress_extrema()

@@ -93,10 +93,10 @@ public:
   double finish();
 
   /**
-   * Write how a run ended that did not get through, if that can be written: @p status is "failed"
-   * or "interrupted", @p message the line that says why.
+   * Write how a run ended that did not get through, if that can be written: @p status is failed
+   * or interrupted, @p message the line that says why.
    */
-  void give_up(const std::string &status, const std::string &message);
+  void give_up(RunStatus status, const std::string &message);
 
   /** As in "steps 1 to 3 are safe": what a run leaves that ends here. */
   std::string safe_steps() const;

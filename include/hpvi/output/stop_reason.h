@@ -2,6 +2,7 @@
 #ifndef hpvi_stop_reason_h
 #define hpvi_stop_reason_h
 
+#include <hpvi/driver/stop.h>
 #include <hpvi/scene/scene.h>
 
 #include <string>
@@ -9,8 +10,7 @@
 namespace hpvi
 {
 /** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
-std::string stop_reason(const std::string &stopped_by, const Adaptivity &adaptivity,
-                        bool has_bound);
+std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivity, bool has_bound);
 } // namespace hpvi
 
 #endif

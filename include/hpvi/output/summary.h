@@ -11,15 +11,29 @@
 
 namespace hpvi
 {
+/** How a run ended, or stands. */
+enum class RunStatus
+{
+  not_begun, ///< of a sweep
+  running,
+  done,
+  failed,
+  interrupted,
+  refused ///< of a sweep: bad input
+};
+
+/** As in files. */
+std::string text(RunStatus status);
+
 /**
  * How a run stands: what `summary.json` says beside the scene. Its members are the same on each path and
  * whatever the outcome; what there is not, not yet or not on this path is null.
  */
 struct Summary
 {
-  std::string status = "running";       ///< later "done", "failed", "interrupted"
+  RunStatus status = RunStatus::running;
   std::string message;                  ///< why it failed or was interrupted
-  std::string stopped_by;               ///< the limit that ended the run
+  StopReason stopped_by;                ///< of the last step
   std::string linear;                   ///< what solved the linear systems of the primal path
   std::string scene_file;               ///< of a run that goes on: the file with which it began
   std::vector<std::string> input_files; ///< that the scene names, with their content

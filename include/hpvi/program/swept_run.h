@@ -2,7 +2,7 @@
 #ifndef hpvi_swept_run_h
 #define hpvi_swept_run_h
 
-#include <hpvi/output/record.h>
+#include <hpvi/output/summary.h>
 #include <hpvi/scene/scene.h>
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace hpvi
 /** How one run of a sweep stands. */
 struct SweptRun
 {
-  std::string status = "not begun"; ///< later done, failed, refused (bad input), interrupted
-  std::string message;              ///< why it failed
+  RunStatus status = RunStatus::not_begun;
+  std::string message; ///< why it failed
   std::vector<std::string> warnings;
   double seconds = 0;
   bool was_done = false;           ///< by an earlier sweep
