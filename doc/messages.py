@@ -353,6 +353,8 @@ class Sources:
     def said(self, noun, k, name, arguments):
         """The messages of a call: more than one where it throws one of several."""
         kind, section = HOLDERS.get(name, (THROWERS.get(name), ""))
+        if name == "InputError":
+            arguments = arguments[:1]  # without names_time
         texts = [self.text(argument, noun, k) for argument in arguments]
         entry = ""
         if name in HOLDERS:

@@ -20,6 +20,7 @@ enum class Outcome : unsigned int
 {
   done,
   bad_input,
+  bad_input_at_a_time, ///< InputError::names_time
   gave_up,
   other
 };
@@ -33,7 +34,7 @@ std::pair<Outcome, std::string> outcome_of(const std::function<void()> &work)
   }
   catch (const InputError &error)
   {
-    return {Outcome::bad_input, error.what()};
+    return {error.names_time ? Outcome::bad_input_at_a_time : Outcome::bad_input, error.what()};
   }
   catch (const NumericalFailure &error)
   {
@@ -73,8 +74,8 @@ void collectively(MPI_Comm communicator, const std::function<void()> &work)
   outcome = static_cast<Outcome>(
       Utilities::MPI::broadcast(communicator, static_cast<unsigned int>(outcome), first));
   message = Utilities::MPI::broadcast(communicator, message, first);
-  if (outcome == Outcome::bad_input)
-    throw InputError(message);
+  if (outcome == Outcome::bad_input || outcome == Outcome::bad_input_at_a_time)
+    throw InputError(message, outcome == Outcome::bad_input_at_a_time);
   if (outcome == Outcome::gave_up)
     throw NumericalFailure(message);
   throw std::runtime_error(message);

@@ -347,9 +347,9 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
   }
   catch (const InputError &error)
   {
-    const std::string line = error.what();
-    const bool says_when = line.find(" t = ") != std::string::npos;
-    throw InputError(line + (says_when ? "" : " (" + evolution->place() + ")"));
+    throw error.names_time
+        ? error
+        : InputError(std::string(error.what()) + " (" + evolution->place() + ")", true);
   }
 }
 

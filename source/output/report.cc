@@ -169,29 +169,6 @@ std::string pair(const std::string &left, const std::string &right)
   return "<div class=\"pair\">\n<div>\n" + left + "</div>\n<div>\n" + right + "</div>\n</div>\n";
 }
 
-/**
- * The scene at the end of its history, without round-off beside the data of some load steps, of which no period of an
- * expression is a multiple: to look at all of them takes longer than all else.
- */
-template <int dim>
-Scene<dim> last_of(const Scene<dim> &scene)
-{
-  if (!scene.has_load_history())
-    return scene;
-  const unsigned int n = scene.loading.steps;
-  DataScale past;
-  for (const double t : {0.13, 0.41, 0.78})
-    if (n > 1)
-    {
-      const DataScale scale = data_scale(scene.loading.at(t));
-      past.stress = std::max(past.stress, scale.stress);
-      past.displacement = std::max(past.displacement, scale.displacement);
-    }
-  Scene<dim> last = load_step(scene, n, past);
-  last.loading = {};
-  return last;
-}
-
 // ---------------------------------------------------------------- the parts
 
 /** One paragraph for each line. */
@@ -326,7 +303,7 @@ std::string report(const Scene<dim> &scene, const std::string &directory,
          (are_many(charts) ? " class=\"many\"" : "") + ">\n" + element("h1", title) + "\n" +
          about(files.summary) + ending_words(files.summary, scene.adaptivity) +
          section("The answer", pair(answer_words(scene, files), field_part(scene, files))) +
-         section("The scene", tried([&]() { return scene_part(scene, last_of(scene)); },
+         section("The scene", tried([&]() { return scene_part(scene, at_the_end(scene)); },
                                     "The scene cannot be said in words")) +
          section(charts_title(scene), "<div class=\"pair charts\">\n" + charts + "</div>\n") +
          section("Forces", forces_words(scene, files)) + section("Steps", steps_table(files)) +

@@ -3,6 +3,7 @@
 #define hpvi_input_error_h
 
 #include <stdexcept>
+#include <string>
 
 namespace hpvi
 {
@@ -13,7 +14,12 @@ namespace hpvi
 class InputError : public std::runtime_error
 {
 public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string &line, const bool names_time = false)
+      : std::runtime_error(line), names_time(names_time)
+  {
+  }
+
+  bool names_time; ///< at which it is so, of a load history
 };
 } // namespace hpvi
 

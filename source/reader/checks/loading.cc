@@ -20,10 +20,11 @@ void check_load_steps(const Scene<dim> &scene, const std::function<void(unsigned
     }
     catch (const InputError &error)
     {
-      const std::string line = error.what(), time = "t = " + to_string(scene.loading.time(step));
-      if (step == 1 || line.find(time) != std::string::npos)
+      if (step == 1 || error.names_time)
         throw;
-      throw InputError(line + " (load step " + std::to_string(step) + ", " + time + ")");
+      throw InputError(std::string(error.what()) + " (load step " + std::to_string(step) +
+                           ", t = " + to_string(scene.loading.time(step)) + ")",
+                       true);
     }
 }
 

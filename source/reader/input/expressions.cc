@@ -116,14 +116,16 @@ private:
 /** @p function, which must be finite wherever it is asked. */
 template <int dim>
 std::shared_ptr<const Function<dim>> finite(const std::shared_ptr<const Function<dim>> &function,
-                                            const std::string &place, const std::string &shown)
+                                            const std::string &place, const std::string &shown,
+                                            const bool has_time)
 {
   const auto value = [=](const Point<dim> &x)
   {
     const double result = function->value(x);
     if (!std::isfinite(result))
       throw InputError(message(place, shown + " is not finite", x, result,
-                               "give an expression that is finite everywhere it applies"));
+                               "give an expression that is finite everywhere it applies"),
+                       has_time);
     return result;
   };
   return std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
@@ -273,8 +275,9 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   if (!problem.empty())
     parameters.reject(section, name, "\"" + printable(text) + "\" " + problem);
   const auto function = std::make_shared<const ParserByThread<dim>>(spaced, constants);
-  const Expression result = finite<dim>(function, parameters.place(section, name),
-                                        "\"" + printable(text) + "\"" + with_time(constants));
+  const Expression result =
+      finite<dim>(function, parameters.place(section, name),
+                  "\"" + printable(text) + "\"" + with_time(constants), constants.count("t") > 0);
   for (const Point<dim> &point : points)
     result->value(point);
   return result;
@@ -315,11 +318,12 @@ ExpressionReader<dim>::read_bound(const std::string &section, const std::string 
   for (const Point<dim> &point : points)
     largest = std::max(largest, std::abs(g->value(point)));
   const auto value = [g, largest, remedy, place = parameters.place(section, name),
-                      problem = "is negative" + with_time(constants)](const Point<dim> &x)
+                      problem = "is negative" + with_time(constants),
+                      has_time = constants.count("t") > 0](const Point<dim> &x)
   {
     const double result = g->value(x);
     if (result < -1e-12 * largest) // round-off, as in sin(2*pi), is no sign
-      throw InputError(message(place, problem, x, result, remedy));
+      throw InputError(message(place, problem, x, result, remedy), has_time);
     return std::max(result, 0.);
   };
   const auto bound = std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
