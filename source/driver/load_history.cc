@@ -302,7 +302,13 @@ std::optional<RunState<dim>> LoadHistory<dim>::state() const
 template <int dim>
 void LoadHistory<dim>::prepare(const std::function<void(const Progress &)> &on_stage)
 {
-  evolution->solver->prepare(on_stage);
+  try
+  {
+    evolution->solver->prepare(on_stage);
+  }
+  catch (const NumericalFailure &)
+  {
+  }
 }
 
 template <int dim>

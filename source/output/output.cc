@@ -393,8 +393,12 @@ void Output<dim>::write_tables(const StepReport<dim> &step,
 }
 
 template <int dim>
-void Output<dim>::write_step(const StepReport<dim> &step, const std::optional<RunState<dim>> &state)
+void Output<dim>::write_step(const StepReport<dim> &step, const LoadHistory<dim> *const solver)
 {
+  // Of a larger mesh a state takes more than it saves: all numbers of all cells, from one process.
+  constexpr types::global_dof_index largest_state = 300000; // unknowns
+  const std::optional<RunState<dim>> state =
+      solver && step.size.n_dofs <= largest_state ? solver->state() : std::nullopt;
   pictures.clear();
   if (scene.output.vtu && n_processes > 1)
     write_pieces(step);

@@ -205,19 +205,6 @@ void stop_all_if_interrupted()
     throw Interruption(signal);
 }
 
-/** What the first step may still reject comes before anything is written; where it fails, the run will say so. */
-template <int dim>
-void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &)> &announce)
-{
-  try
-  {
-    solver.prepare(announce);
-  }
-  catch (const NumericalFailure &)
-  {
-  }
-}
-
 template <int dim>
 void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::string &directory,
                 const std::string &loads, const unsigned int n_steps)
@@ -248,9 +235,6 @@ void print_end(const Scene<dim> &scene, const Ending &ending, const std::string 
             << ending.reason << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
-/** Of a larger mesh a state takes more than it saves: all numbers of all cells, from one process. */
-constexpr dealii::types::global_dof_index largest_state = 300000; // unknowns
-
 /** @p state: where it goes on. Returns the seconds of the report. */
 template <int dim>
 double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
@@ -258,7 +242,7 @@ double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
 {
   const auto solver = state ? std::make_unique<LoadHistory<dim>>(scene, *state, MPI_COMM_WORLD)
                             : std::make_unique<LoadHistory<dim>>(scene, MPI_COMM_WORLD);
-  prepare(*solver, listener.on_stage);
+  solver->prepare(listener.on_stage);
   Output<dim> output(scene, directory, state ? state->n_steps() : 0, MPI_COMM_WORLD);
   listener.begun(output);
   try
@@ -267,8 +251,7 @@ double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
         [&](const StepReport<dim> &step)
         {
           listener.finished(step);
-          output.write_step(step,
-                            step.size.n_dofs <= largest_state ? solver->state() : std::nullopt);
+          output.write_step(step, solver.get());
         },
         listener.on_stage);
   }

@@ -292,33 +292,10 @@ void start_mpi()
   mpi = std::make_unique<Utilities::MPI::MPI_InitFinalize>(argc, argv, 1);
 }
 
-/** What the first step may still reject comes before anything is written. */
-template <int dim>
-void prepare(LoadHistory<dim> &solver, const std::function<void(const Progress &)> &announce)
-{
-  try
-  {
-    solver.prepare(announce);
-  }
-  catch (const NumericalFailure &) // the run will say so
-  {
-  }
-}
-
 /** The listener has had enough after a step that is whole. */
 struct Enough
 {
 };
-
-/** Files, where they are wanted. */
-template <int dim>
-void write_step(const std::unique_ptr<Output<dim>> &output, const StepReport<dim> &step,
-                const LoadHistory<dim> &solver)
-{
-  constexpr types::global_dof_index largest_state = 300000; // unknowns, as the program
-  if (output)
-    output->write_step(step, step.size.n_dofs <= largest_state ? solver.state() : std::nullopt);
-}
 
 template <int dim>
 std::shared_ptr<Result> run(const ParameterFile &file, const std::string &directory,
@@ -330,14 +307,15 @@ std::shared_ptr<Result> run(const ParameterFile &file, const std::string &direct
     start_mpi();
   const auto announce = [&](const Progress &) { listener.between(); };
   result->solver = std::make_unique<LoadHistory<dim>>(result->scene);
-  prepare(*result->solver, announce);
+  result->solver->prepare(announce);
   std::unique_ptr<Output<dim>> output;
   if (!directory.empty())
     output = std::make_unique<Output<dim>>(result->scene, directory);
   const auto finished = [&](const StepReport<dim> &step)
   {
     result->take(step);
-    write_step(output, step, *result->solver);
+    if (output)
+      output->write_step(step, result->solver.get());
     if (!listener.finished(result))
       throw Enough();
     if (step.stopped_by.empty() || step.load.number < result->scene.loading.steps)

@@ -35,7 +35,7 @@ public:
   /** AdaptiveSolver::state(); in a history of loads at the end of a load step alone. */
   std::optional<RunState<dim>> state() const;
 
-  /** AdaptiveSolver::prepare(), of the first load step. */
+  /** AdaptiveSolver::prepare(), of the first load step, for what is refused before anything is written; run() says what fails. */
   void prepare(const std::function<void(const Progress &)> &on_stage = [](const Progress &) {});
 
   /**

@@ -2,7 +2,7 @@
 #ifndef hpvi_output_h
 #define hpvi_output_h
 
-#include <hpvi/driver/checkpoint.h>
+#include <hpvi/driver/load_history.h>
 #include <hpvi/driver/step_report.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/summary.h>
@@ -85,9 +85,11 @@ public:
   Output(const Scene<dim> &scene, const std::string &path, unsigned int n_steps,
          MPI_Comm communicator);
 
-  /** Write the files of one finished step, @p state as `state.dat`, and bring the tables up to date. Throws OutputFailure. */
-  void write_step(const StepReport<dim> &step,
-                  const std::optional<RunState<dim>> &state = std::nullopt);
+  /**
+   * Write the files of one finished step, of no large mesh also the state of @p solver as `state.dat`, and bring the tables up to
+   * date. Throws OutputFailure.
+   */
+  void write_step(const StepReport<dim> &step, const LoadHistory<dim> *solver = nullptr);
 
   /** Write that the run is done. Returns the seconds of the report. Throws OutputFailure. */
   double finish();
