@@ -241,10 +241,9 @@ class Freeze:
         """Command line, status and line of each row of a table of tests/bad_input."""
         lines = self.scratch / f"{script}.rows"
         lines.touch()
-        second = [str(self.program.parent / "tests/libfuzz_server.so")] if script != "space.sh" else [shutil.which("mpirun")]
-        if script != "space.sh" and not pathlib.Path(second[0]).exists():
-            second = []
-        done = subprocess.run(["bash", ROOT / "tests/bad_input" / script, self.program, *second], cwd=ROOT, text=True,
+        library = self.program.parent / "tests/libfuzz_server.so"
+        more = [library if library.exists() else "", *([shutil.which("mpirun")] if script == "space.sh" else [])]
+        done = subprocess.run(["bash", ROOT / "tests/bad_input" / script, self.program, *more], cwd=ROOT, text=True,
                               capture_output=True, env={**self.environment, "HPVI_ROWS": str(lines)}, check=False)
         text = re.sub(re.escape(tempfile.gettempdir()) + r"/tmp\.\w+", "TEMPORARY", lines.read_text(encoding="utf-8", errors="backslashreplace"))
         text = re.sub(r"[\d.]+ \wB are left", f"{MASK} are left", text)  # of memory

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 #
-# What tables of bad input have in common, for run.sh, shapes.sh and bodies.sh. Every bad scene must end with exit status 1 and
+# What tables of bad input have in common, for run.sh, shapes.sh and bodies.sh; space.sh runs the program as they do. Every bad scene must end with exit status 1 and
 # exactly one line on stderr that names file, entry, value and remedy, and must write nothing. Each call below is one row:
 #
 #   invalid WORD... -- ENTRY=VALUE...   the table's own scene, $base, with these entries overridden
@@ -12,12 +12,12 @@
 # Command line, status and line of each row go to the end of $HPVI_ROWS, where that is a file: tests/freeze.py compares them.
 # With the library of tests/fuzz/server.cc rows take a tenth of the time: the program is forked where it has loaded its own.
 
-if [ $# -lt 1 ] || [ $# -gt 2 ] || [ ! -x "$1" ]; then
-  echo "usage: $0 HPVI [SERVER]" >&2
+if [ $# -lt 1 ] || [ $# -gt 3 ] || [ ! -x "$1" ]; then
+  echo "usage: $0 HPVI [SERVER [MPIRUN]]" >&2
   exit 2
 fi
 hpvi=$(realpath "$1")
-if [ $# -eq 2 ]; then
+if [ -n "${2:-}" ]; then
   library=$(realpath "$2")
   coproc server { OMP_NUM_THREADS=1 LD_PRELOAD=$library exec "$hpvi"; }
 fi

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# space.sh HPVI MPIRUN: what space and several processes do not offer ends with one line that says so.
+# space.sh HPVI SERVER MPIRUN: what space and several processes do not offer ends with one line that says so.
 set -u
-hpvi=$1 mpirun=$2
-scratch=$(mktemp -d)
-trap 'rm -r "$scratch"' EXIT
-failures=0
+root=$PWD mpirun=$3
+source "$(dirname "$0")/rows.sh"
+cd "$root" || exit 2
 
 # check STATUS WORDS... -- COMMAND...: the command ends with the status and one line that has all words.
 check() {
@@ -16,12 +15,17 @@ check() {
     shift
   done
   shift
-  "$@" >"$scratch/out" 2>"$scratch/err"
-  local got=$?
-  grep -v '^-*$\|^mpirun\|the job to be terminated\|^Primary job\|a non-zero exit code\|exiting improperly\|^ *Process name\|^ *Exit code\|^$' "$scratch/err" >"$scratch/lines"
+  local got
+  if [ "$1" = "$hpvi" ]; then
+    run_hpvi "${@:2}"
+  else
+    "$@" >"$scratch/stdout" 2>"$scratch/stderr"
+  fi
+  got=$?
+  grep -v '^-*$\|^mpirun\|the job to be terminated\|^Primary job\|a non-zero exit code\|exiting improperly\|^ *Process name\|^ *Exit code\|^$' "$scratch/stderr" >"$scratch/lines"
   [ -z "${HPVI_ROWS:-}" ] || { echo "$* -> $got" && cat "$scratch/lines"; } >>"$HPVI_ROWS" # see rows.sh
   [ "$got" -eq "$status" ] || { echo "status $got, not $status: $*"; failures=1; }
-  [ "$(wc -l <"$scratch/lines")" -eq 1 ] || { echo "not one line: $*"; cat "$scratch/err"; failures=1; }
+  [ "$(wc -l <"$scratch/lines")" -eq 1 ] || { echo "not one line: $*"; cat "$scratch/stderr"; failures=1; }
   for word in "${words[@]}"; do
     grep -qF -- "$word" "$scratch/lines" || { echo "no \"$word\": $*"; cat "$scratch/lines"; failures=1; }
   done

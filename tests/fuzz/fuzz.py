@@ -15,7 +15,6 @@ import dataclasses
 import os
 import pathlib
 import resource
-import select
 import shlex
 import shutil
 import signal
@@ -26,6 +25,7 @@ import time
 
 import findings
 import mutator
+import served
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MEGABYTES, CPU_SECONDS, WALL_SECONDS = 4000, 15, 300
@@ -52,29 +52,15 @@ class Program:
         self.program, self.preload, self.scratch, self.server = str(program), library, scratch, None
         self.environment = {**ENVIRONMENT, "TMPDIR": str(scratch)}
 
-    def start(self):
-        self.server = subprocess.Popen([self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=self.scratch,
-                                       env={**self.environment, "LD_PRELOAD": str(self.preload)})
-
     def stop(self):
         if self.server:
-            self.server.stdin.close()
-            self.server.wait()
+            self.server.stop()
 
     def served(self, arguments, home):
         """Status as of waitpid, kilobytes, seconds, was it ended?"""
         if not self.server:
-            self.start()
-        request = [str(home), "../stdout", "../stderr", str(MEGABYTES), str(CPU_SECONDS), "hpvi", *arguments]
-        self.server.stdin.write(b"%d\0" % len(request) + b"".join(os.fsencode(part) + b"\0" for part in request))
-        self.server.stdin.flush()
-        child = int(self.server.stdout.readline().split()[1])
-        ended = False
-        while not select.select([self.server.stdout], [], [], WALL_SECONDS)[0]:
-            ended = True
-            os.kill(child, signal.SIGKILL)
-        _, status, kilobytes, seconds = self.server.stdout.readline().split()
-        return int(status), int(kilobytes), float(seconds), ended
+            self.server = served.Server(self.program, self.preload, self.environment, self.scratch)
+        return self.server.run(arguments, home, "../stdout", "../stderr", MEGABYTES, CPU_SECONDS, WALL_SECONDS)
 
     def alone(self, arguments, home):
         def limit():

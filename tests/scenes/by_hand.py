@@ -88,7 +88,7 @@ HUB = {"Body shaft/Upper corner": "1, 1", "Body shaft/Subdivisions": "2, 2", "Bo
        **{f"Boundary {body}.{side}/Displacement": "free; 0" for body in ("shaft", "hub") for side in ("bottom", "top")},
        "Adaptivity/Method": "pu", "Adaptivity/Start degree": "12", "Adaptivity/Maximum steps": "1"}
 FIT = 2 * math.pi * 0.01 / (1.3 * 0.4 / 10 + 1.3 * (0.4 + 4) / (30 * 3))  # the force of a fit of 0.01 around the turn
-COLUMN = {**{path: value for path, value in STACK.items() if path != "Material/Plane"}, "Material/Plane": "axisymmetric",
+COLUMN = {**STACK, "Material/Plane": "axisymmetric",
           "Boundary lower.bottom/Displacement": "free; 0", "Boundary upper.top/Displacement": "free; -0.2"}  # STACK turned about its left side
 # A ring in a ring that is held outside, both in plane stress: 2 r^2 s_rt is the moment of the shear 0.3 inside; pressed into each other by Gap.
 RINGS = {"Body in/Shape": "ring sector", "Body in/Angles": "0, 360", "Body in/Radii": "1, 1.5", "Body in/Subdivisions": "1, 7",
@@ -479,14 +479,6 @@ ROWS = [
 ]
 
 
-def text_of(settings):
-    lines = []
-    for path, value in settings.items():
-        section, _, name = path.rpartition("/")
-        lines += [f"subsection {section}"] * bool(section) + [f"set {name} = {value}"] + ["end"] * bool(section)
-    return "\n".join(lines)
-
-
 def found(summary, path):
     """The value at a path, or the sum of several; forces by name have x and y."""
     if "+" in path:
@@ -516,9 +508,7 @@ class ByHand(RunTest):
                     self.assertAlmostEqual(found(summary, path), value, delta=1e-8 * largest + 1e-10, msg=path)
 
     def run_settings(self, settings, **options):
-        file = self.home / "row.prm"
-        file.write_text(text_of({path: value for path, value in settings.items() if value is not None}))
-        return self.run_scene("Output/VTU=false", scene=file, **options)
+        return self.run_scene("Output/VTU=false", scene=self.written(settings), **options)
 
     def run_meshed(self, scene, mesh, *circles):
         """Its twin whose body is a mesh of Gmsh, the named boundaries of which are circles."""
@@ -639,13 +629,11 @@ class ByHand(RunTest):
 
     def test_pictures_of_a_ring_are_round(self):
         """Points of the VTU lie between Lame's circles and have his displacements and stresses."""
-        file = self.home / "row.prm"
-        file.write_text(text_of({
+        self.run_scene(scene=self.written({
             "Geometry/Shape": "ring sector", "Geometry/Subdivisions": "2, 4", "Material/Young's modulus": "10",
             "Material/Poisson's ratio": "0.3", "Boundary start/Symmetry": "true", "Boundary end/Symmetry": "true",
             "Boundary inner/Pressure": "1", "Adaptivity/Method": "pu", "Adaptivity/Start degree": "8",
             "Adaptivity/Maximum steps": "1"}))
-        self.run_scene(scene=file)
         grid = read_vtu(self.out / "solution-01.vtu")
         radii = [math.hypot(x, y) for x, y, _ in grid["points"]]
         self.assertAlmostEqual(min(radii), 1, delta=1e-12)
@@ -778,8 +766,7 @@ class ByHand(RunTest):
         slanted = {**OBLIQUE, "Geometry/Upper corner": None, "Geometry/Shape": "quadrilateral", "Geometry/Corners": "0, 0; 2, 1; 1.5, 2; -0.5, 1",
                    "Boundary bottom/Contact direction": None, "Boundary bottom/Contact": "unilateral", "Boundary bottom/Friction bound": "0.1",
                    "Boundary top/Displacement": "0.05; -0.1", "Adaptivity/Method": "hpa3", "Adaptivity/Maximum steps": "4"}
-        file = self.home / "slanted.prm"
-        file.write_text(text_of({path: value for path, value in slanted.items() if value is not None}))
+        file = self.written(slanted)
         for scene, direction in [(SCENES / "han-6-12-unilateral.prm", "1e-13; -7"), (SCENES / "ssnv128.prm", "0; -1"), (file, "1 + 1e-13; -2")]:
             tables = []
             for settings in ([], [f"Boundary bottom/Contact direction={direction}"]):
@@ -852,12 +839,10 @@ class ByHand(RunTest):
 
     def test_a_bound_at_a_million_times_the_stiffness(self):
         """u_N has 16 digits, of which the motion of the stiff part takes six or seven: the bound pays for what is left."""
-        file = self.home / "inclusion.prm"
-        file.write_text(text_of(
+        self.run_settings(
             {"Geometry/Upper corner": "4, 4", "Geometry/Subdivisions": "4, 4", "Material core/Young's modulus": "1e6",
              "Material core/Where": "min(min(x - 1, 3 - x), min(y - 1, 3 - y))", "Boundary left/Symmetry": "true",
-             "Boundary bottom/Displacement": "0; 0", "Boundary top/Pressure": "1 + x", "Adaptivity/Maximum steps": "8"}))
-        self.run_scene("Output/VTU=false", scene=file)
+             "Boundary bottom/Displacement": "0; 0", "Boundary top/Pressure": "1 + x", "Adaptivity/Maximum steps": "8"})
         rows = self.rows()
         self.assertTrue(all(row["error_bound"] for row in rows), [row["bound_imbalance"] for row in rows])
         self.assertGreater(max(float(row["bound_imbalance"]) for row in rows), 1e-9)  # what is paid for

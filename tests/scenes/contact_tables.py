@@ -9,70 +9,27 @@ are T_n = G_y - P, T_t = -(tau + G_x) = -g lambda.
 import csv
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
-SCENE = """
-subsection Geometry
-  set Upper corner = 2, 1
-  set Subdivisions = 2, 1
-end
-subsection Material
-  set Young's modulus = 1
-  set Poisson's ratio = 0
-end
-subsection Boundary top
-  set Displacement = {slip} + 2*({tau}); -{pressure}
-end
-subsection Boundary left
-  set Traction = 0; -({tau})
-end
-subsection Boundary right
-  set Traction = 0; {tau}
-end
-subsection Boundary bottom
-  set Contact        = bilateral
-  set Friction bound = {bound}
-  set Traction       = {along}; {up}
-end
-subsection Adaptivity
-  set Method        = hup3
-  set Maximum steps = 1
-end
-subsection Output
-  set VTU = false
-end
-"""
+from runs import command, run_program, text_of
 
-CORNER = """
-subsection Boundary bottom
-  set Contact        = bilateral
-  set Friction bound = 0.3
-end
-subsection Boundary left
-  set Contact        = bilateral
-  set Friction bound = 0.3
-end
-subsection Boundary top
-  set Traction = 0.1; -1
-end
-subsection Adaptivity
-  set Maximum steps = 2
-end
-"""
+BLOCK = {"Dimension": "2", "Geometry/Upper corner": "2, 1", "Geometry/Subdivisions": "2, 1", "Material/Young's modulus": "1",
+         "Material/Poisson's ratio": "0", "Adaptivity/Method": "hup3", "Adaptivity/Maximum steps": "1", "Output/VTU": "false"}
+CORNER = {"Dimension": "2", "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction bound": "0.3", "Boundary left/Contact": "bilateral",
+          "Boundary left/Friction bound": "0.3", "Boundary top/Traction": "0.1; -1", "Adaptivity/Maximum steps": "2"}
 
 
 def run(home, scene):
-    file = home / "scene-file.prm"
-    file.write_text("set Dimension = 2\n" + scene)
-    subprocess.run([sys.argv[1], "--output", str(home / "out"), str(file)], check=True,
-                   stdout=subprocess.DEVNULL)
-    with open(home / "out" / "contact-01.csv") as table:
-        points = list(csv.DictReader(table))
-    with open(home / "out" / "convergence.csv") as table:
-        return points, list(csv.DictReader(table)), json.loads(
-            (home / "out" / "summary.json").read_text())
+    """The table of contact points, that of steps, the summary, and what is printed."""
+    file, out = home / "scene-file.prm", home / "out"
+    file.write_text(text_of(scene))
+    status, printed, errors = run_program(command(file, out))
+    if status:
+        sys.exit(errors)
+    with open(out / "contact-01.csv") as points, open(out / "convergence.csv") as steps:
+        return (list(csv.DictReader(points)), list(csv.DictReader(steps)),
+                json.loads((out / "summary.json").read_text()), printed)
 
 
 def expect(name, value, expected, tolerance=1e-11):
@@ -81,7 +38,10 @@ def expect(name, value, expected, tolerance=1e-11):
 
 
 def uniform_stress(home, slip, tau, bound, along=0., up=0., pressure=0.2):
-    points, steps, _ = run(home, SCENE.format(**locals()))
+    points, steps, _, _ = run(home, {
+        **BLOCK, "Boundary top/Displacement": f"{slip} + 2*({tau}); -{pressure}", "Boundary left/Traction": f"0; -({tau})",
+        "Boundary right/Traction": f"0; {tau}", "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction bound": bound,
+        "Boundary bottom/Traction": f"{along}; {up}"})
     if len(points) != 4:
         sys.exit(f"{len(points)} rows, expected two Gauss points on each of two edges")
     x = [1 + (edge - 1) + 0.5 + sign * 0.5 / 3 ** 0.5 for edge in (0, 1) for sign in (-1, 1)]
@@ -101,44 +61,14 @@ def uniform_stress(home, slip, tau, bound, along=0., up=0., pressure=0.2):
     expect("estimate", steps[0]["estimate"], 0)
 
 
-UNILATERAL = """
-subsection Geometry
-  set Upper corner = 2, 1
-  set Subdivisions = 2, 1
-end
-subsection Material
-  set Young's modulus = 10
-  set Poisson's ratio = 0
-end
-subsection Units
-  set Length = mm
-  set Stress = MPa
-end
-subsection Boundary top
-  set Displacement = 0; {down}
-end
-subsection Boundary bottom
-  set Contact = unilateral
-  set Gap     = {gap}
-end
-subsection Adaptivity
-  set Method        = hup3
-  set Maximum steps = 1
-end
-subsection Solver
-  set Normal contact = {kind}
-end
-"""
-
-
-def words(home):
-    return subprocess.run([sys.argv[1], "--output", str(home / "out"), str(home / "scene-file.prm")],
-                          check=True, capture_output=True, text=True).stdout
-
-
 def unilateral(home, kind):
     """A block pressed down by 0.3 over a gap of 0.1: T_n = -10 (0.3 - 0.1), all of it slips."""
-    points, steps, summary = run(home, UNILATERAL.format(kind=kind, down=-0.3, gap=0.1))
+    def pressed(gap):
+        return run(home, {**BLOCK, "Material/Young's modulus": "10", "Units/Length": "mm", "Units/Stress": "MPa",
+                          "Boundary top/Displacement": "0; -0.3", "Boundary bottom/Contact": "unilateral", "Boundary bottom/Gap": gap,
+                          "Solver/Normal contact": kind, "Output/VTU": None})
+
+    points, steps, summary, text = pressed("0.1")
     for point in points:
         expect("normal_displacement", point["normal_displacement"], 0.1)
         expect("gap", point["gap"], 0)
@@ -160,14 +90,13 @@ def unilateral(home, kind):
     expect("zone", contact["zones"][0]["length"], 2)
     if [zone["state"] for zone in contact["zones"]] != ["slip"]:
         sys.exit(f"zones are {contact['zones']}")
-    text = words(home)
     for line in ("contact bottom: force (0 4) through (1 0)", "pressure up to 2 MPa at (",
                  "slip from (0 0) to (2 0), length 2 mm", "support top: force (0 -4), moment"):
         if line not in text:
             sys.exit(f"the console does not say: {line}\n{text}")
 
     # It does not reach the plane: open, and exactly without traction.
-    points, steps, summary = run(home, UNILATERAL.format(kind=kind, down=-0.3, gap=0.4))
+    points, steps, summary, text = pressed("0.4")
     for point in points:
         expect("gap", point["gap"], 0.1)
         if (point["state"], float(point["normal_traction"])) != ("open", 0):
@@ -176,13 +105,12 @@ def unilateral(home, kind):
     contact = summary["contact"]["bottom"]
     if contact["through"] is not None or contact["largest_pressure_at"] is not None:
         sys.exit(f"a force where there is none: {contact}")
-    text = words(home)
     for line in ("contact bottom: no force", "open from (0 0) to (2 0), length 2 mm"):
         if line not in text:
             sys.exit(f"the console does not say: {line}\n{text}")
 
     # Half of it: the block stands on x < 1 and its pressure pushes off centre.
-    _, _, summary = run(home, UNILATERAL.format(kind=kind, down=-0.3, gap="if(x<1,0.1,0.4)"))
+    _, _, summary, _ = pressed("if(x<1,0.1,0.4)")
     contact = summary["contact"]["bottom"]
     if [zone["state"] for zone in contact["zones"]] != ["slip", "open"]:
         sys.exit(f"zones are {contact['zones']}")
@@ -202,7 +130,7 @@ with tempfile.TemporaryDirectory() as directory:
         unilateral(home, kind)
 
     # Two contact boundaries have no tangent in common.
-    points, steps, summary = run(home, CORNER)
+    points, steps, summary, _ = run(home, CORNER)
     if steps[-1]["friction_resultant"] != "" or summary["final"]["friction_resultant"] is not None:
         sys.exit("two contact boundaries share a friction_resultant")
     if steps[-1]["normal_resultant"] != "":

@@ -5,40 +5,16 @@ import unittest
 
 from runs import RunTest
 
-PRESSED = """
-subsection Geometry
-  set Subdivisions = 2, 2
-end
-subsection Boundary bottom
-  set Contact        = bilateral
-  set Friction bound = 0.01
-end
-subsection Boundary top
-  set Displacement = 0.03; -0.02
-end
-"""
-CUBE = """
-set Dimension = 3
-subsection Boundary left
-  set Displacement = 0; free; free
-end
-subsection Boundary front
-  set Displacement = free; free; 0
-end
-subsection Boundary bottom
-  set Displacement = free; 0; free
-end
-subsection Boundary top
-  set Traction = 0; -0.01*(1 + 0.05*x^3); 0
-end
-"""
+PRESSED = {"Geometry/Subdivisions": "2, 2", "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction bound": "0.01",
+           "Boundary top/Displacement": "0.03; -0.02"}
+CUBE = {"Dimension": "3", "Boundary left/Displacement": "0; free; free", "Boundary front/Displacement": "free; free; 0",
+        "Boundary bottom/Displacement": "free; 0; free", "Boundary top/Traction": "0; -0.01*(1 + 0.05*x^3); 0"}
 
 
 class Ends(RunTest):
     def setUp(self):
         super().setUp()
-        self.scene = self.home / "scene.prm"
-        self.scene.write_text(PRESSED)
+        self.scene = self.written(PRESSED)
 
     def tolerance(self):
         lines = (self.out / "scene.prm").read_text().splitlines()
@@ -120,8 +96,7 @@ class Ends(RunTest):
         self.assertIn("load step", self.summary()["no_error_bound"])
 
     def test_in_space(self):
-        self.scene.write_text(CUBE)
-        printed = self.run_scene()
+        printed = self.run_scene(scene=self.written(CUBE))
         self.assertIn("\ndone: the error indicator is below 1e-3, the default of "
                       "Adaptivity/Tolerance\n", printed)
         self.assertNotIn("warning", printed)

@@ -197,13 +197,9 @@ class Summaries(RunTest):
     """summary.json can be read and has the same members whatever the outcome."""
 
     # Held all around with degree 1 nothing is free: the displacement is zero, the error is not.
-    STILL = "".join(f"subsection Boundary {side}\n  set Displacement = 0; 0\nend\n"
-                    for side in ("left", "right", "bottom", "top"))
-
     def still(self, force):
-        scene = self.home / "still.prm"
-        scene.write_text(f"{self.STILL}subsection Body force\n  set Expression = {force}\nend\n")
-        return scene
+        return self.written({**{f"Boundary {side}/Displacement": "0; 0" for side in ("left", "right", "bottom", "top")},
+                             "Body force/Expression": force})
 
     def check_members(self, status, *absent):
         summary = self.summary()
@@ -233,12 +229,9 @@ class Summaries(RunTest):
 
     def test_a_missing_bound_is_explained(self):
         """Far from its support a beam hardly strains: what it does is lost in cells that are small."""
-        scene = self.home / "beam.prm"
-        scene.write_text("subsection Geometry\n  set Upper corner = 20, 1\n  set Subdivisions = 20, 1\n"
-                         "  set Graded towards = 20, 0\nend\n"
-                         "subsection Boundary left\n  set Displacement = 0; 0\nend\n"
-                         "subsection Boundary top\n  set Traction = 0; -1\nend\n")
-        printed = self.run_scene("Adaptivity/Maximum steps=1", "Geometry/Grading levels=25", scene=scene)
+        beam = {"Geometry/Upper corner": "20, 1", "Geometry/Subdivisions": "20, 1", "Geometry/Graded towards": "20, 0",
+                "Geometry/Grading levels": "25", "Boundary left/Displacement": "0; 0", "Boundary top/Traction": "0; -1"}
+        printed = self.run_scene("Adaptivity/Maximum steps=1", scene=self.written(beam))
         summary, row = self.summary(), self.rows()[0]
         self.assertIsNone(summary["error_bound"])
         self.assertGreater(float(row["bound_imbalance"]), 1e-9)

@@ -10,47 +10,20 @@ import xml.etree.ElementTree as ElementTree
 from runs import RunTest, result_names
 
 # A block of height 1 in pure shear under tau = mu U as long as it sticks, mu = 0.5, g = 0.1.
-BLOCK = """
-subsection Geometry
-  set Upper corner = 2, 1
-  set Subdivisions = 2, 1
-end
-subsection Material
-  set Young's modulus = 1
-  set Poisson's ratio = 0
-end
-subsection Boundary top
-  set Displacement = if(t < 0.6, 0.8*t, 0.8 - 0.8*t); 0
-end
-subsection Boundary left
-  set Traction = 0; -{tau}
-end
-subsection Boundary right
-  set Traction = 0; {tau}
-end
-subsection Boundary bottom
-  set Contact        = bilateral
-  set Friction bound = 0.1
-end
-subsection Loading
-  set Steps = 4
-end
-subsection Adaptivity
-  set Method        = hup2
-  set Maximum steps = 2
-end
-"""
 # U = 0.2, 0.4, 0.2, 0: sticks, slips by 0.2, sticks, sticks up to the bound.
 TAU = (0.1, 0.1, 0., -0.1)
 SLIP = (0., 0.2, 0., 0.)
 TAU_OF_T = "if(t < 0.6, 0.1, if(t < 0.8, 0, -0.1))"
+BLOCK = {"Geometry/Upper corner": "2, 1", "Geometry/Subdivisions": "2, 1", "Material/Young's modulus": "1", "Material/Poisson's ratio": "0",
+         "Boundary top/Displacement": "if(t < 0.6, 0.8*t, 0.8 - 0.8*t); 0", "Boundary left/Traction": f"0; -1*{TAU_OF_T}",
+         "Boundary right/Traction": f"0; {TAU_OF_T}", "Boundary bottom/Contact": "bilateral", "Boundary bottom/Friction bound": "0.1",
+         "Loading/Steps": "4", "Adaptivity/Method": "hup2", "Adaptivity/Maximum steps": "2"}
 
 
 class Loading(RunTest):
     def setUp(self):
         super().setUp()
-        self.scene = self.home / "block.prm"
-        self.scene.write_text(BLOCK.replace("{tau}", TAU_OF_T).replace("-if", "-1*if"))
+        self.scene = self.written(BLOCK)
 
     def test_tables(self):
         self.run_scene()
@@ -132,35 +105,17 @@ class Loading(RunTest):
         self.assertEqual(self.summary()["status"], "failed")
         self.assertEqual(self.summary()["loading"]["finished"], 2)
 
-SQUARE = """
-subsection Material
-  set Young's modulus = 1000
-end
-subsection Boundary bottom
-  set Contact = {contact}
-  set {friction}
-end
-subsection Boundary {side}
-  set {load}
-end
-subsection Loading
-  set Steps = {steps}
-end
-subsection Adaptivity
-  set Maximum steps = 3
-end
-"""
-COULOMB, TRESCA, FADING = ("Friction coefficient = 0.3", "Friction bound = 3",
-                           "Friction bound = 3*sin(pi*t)")
+
+COULOMB, TRESCA, FADING = ("Friction coefficient", "0.3"), ("Friction bound", "3"), ("Friction bound", "3*sin(pi*t)")
 KINDS = [("bilateral", COULOMB), ("bilateral", TRESCA), ("bilateral", FADING),
          ("unilateral", COULOMB), ("unilateral", TRESCA), ("unilateral", FADING)]
-HELD = "Displacement = 0.001*sin(2*pi*t); -0.002*sin(pi*t)"
-PUSHED = "Traction = 1*sin(2*pi*t); -10*sin(pi*t)"
+HELD = ("Displacement", "0.001*sin(2*pi*t); -0.002*sin(pi*t)")
+PUSHED = ("Traction", "1*sin(2*pi*t); -10*sin(pi*t)")
 # contact, friction, the boundary of the load and the load, load steps
-RETURNS = [("bilateral", COULOMB, "top", "Displacement = 0.03*(1-t); 0", 2),
+RETURNS = [("bilateral", COULOMB, "top", ("Displacement", "0.03*(1-t); 0"), 2),
            ("tangential", TRESCA, "top", HELD, 4),
            ("unilateral", COULOMB, "right",
-            "Displacement = 0; if(t < 0.9, 0.001*t, 0.001*sin(2*pi*t))", 4)]
+            ("Displacement", "0; if(t < 0.9, 0.001*t, 0.001*sin(2*pi*t))"), 4)]
 RETURNS += [(*kind, "top", load, steps) for kind in KINDS
             for load, steps in ((HELD, 4), (PUSHED, 4), (PUSHED, 3))]
 
@@ -169,9 +124,9 @@ class ReturnToZero(RunTest):
     """Histories whose data at the end are the round-off of zero."""
 
     def run_history(self, contact, friction, side, load, steps):
-        self.scene = self.home / "zero.prm"
-        self.scene.write_text(SQUARE.format(contact=contact, friction=friction, side=side,
-                                            load=load, steps=steps))
+        self.scene = self.written({"Material/Young's modulus": "1000", "Boundary bottom/Contact": contact,
+                                   f"Boundary bottom/{friction[0]}": friction[1], f"Boundary {side}/{load[0]}": load[1],
+                                   "Loading/Steps": steps, "Adaptivity/Maximum steps": "3"})
         return self.run_scene("Output/VTU=false", "Output/Mesh picture=false")
 
     def test_what_is_left_is_zero_or_locked_in(self):
@@ -193,9 +148,9 @@ class ReturnToZero(RunTest):
                 self.assertLess(max(balance["force"], balance["moment"]), 1e-8)
 
     def test_round_off_of_one_load_pushes_nothing(self):
-        for friction in ("Friction bound = 0", COULOMB):
+        for friction in (("Friction bound", "0"), COULOMB):
             with self.subTest(friction=friction):
-                self.run_history("unilateral", friction, "top", "Traction = 5*sin(2*pi); -100", 1)
+                self.run_history("unilateral", friction, "top", ("Traction", "5*sin(2*pi); -100"), 1)
                 force = self.summary()["forces"]["bottom"]["force"]
                 self.assertAlmostEqual(force[1], 100., 9)
                 self.assertLess(abs(force[0]), 1e-9)

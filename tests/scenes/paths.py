@@ -2,14 +2,12 @@
 """paths.py HPVI MPIRUN: scenes that both paths offer have the same meshes, energies, forces and balance on each of
 them, and on two and three processes."""
 
-import csv
-import json
 import math
 import subprocess
 import sys
 import unittest
 
-from runs import ENVIRONMENT, SCENES, RunTest, command
+from runs import ENVIRONMENT, SCENES, RunTest, command, run_program
 
 MPIRUN = [sys.argv.pop(1), "--oversubscribe", "--bind-to", "none"]
 # Meshes that depend on the indicator alone, a discrete problem that both paths have, solved to the end.
@@ -36,13 +34,11 @@ class Paths(RunTest):
     def results(self, n_processes, scene, settings):
         """Rows of the table and the summary."""
         run = command(SCENES / f"{scene}.prm", self.out, *ALIKE, *settings)
-        if n_processes > 1:
-            run = [*MPIRUN, "-np", str(n_processes), *run]
-        done = subprocess.run(run, capture_output=True, text=True, env=ENVIRONMENT, timeout=120, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.out / "convergence.csv", encoding="utf-8") as table:
-            rows = list(csv.DictReader(table))
-        return rows, json.loads((self.out / "summary.json").read_text())
+        if n_processes == 1:
+            self.said(0, *run_program(run))
+        else:
+            subprocess.run([*MPIRUN, "-np", str(n_processes), *run], capture_output=True, env=ENVIRONMENT, timeout=120, check=True)
+        return self.rows(), self.summary()
 
     def check_rows(self, reduced, primal):
         self.assertEqual(len(reduced), len(primal))

@@ -3,11 +3,10 @@
 refuse is in tests/bad_input."""
 
 import re
-import subprocess
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from runs import BAR, ENVIRONMENT, PROGRAM, SCENES, RunTest
+from runs import BAR, PROGRAM, SCENES, RunTest, run_program
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -57,11 +56,7 @@ class PictureTest(RunTest):
         line = [PROGRAM, option, scene or self.scene] + (["--output", self.out] if output else [])
         for setting in settings:
             line += ["--set", setting]
-        done = subprocess.run(line, capture_output=True, text=True, env=ENVIRONMENT, timeout=60, check=False,
-                              cwd=self.home)
-        self.assertEqual(done.returncode, status, done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 0 if status == 0 else 1, done.stderr)
-        return done.stdout if status == 0 else done.stderr
+        return self.said(status, *run_program(line, self.home))
 
     drawn = {}  # those of shipped scenes as they are, by name: starting the program is what takes time here
 

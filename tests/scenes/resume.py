@@ -12,7 +12,7 @@ import zlib
 
 KILLS, SEED = (int(sys.argv.pop(2)), int(sys.argv.pop(2))) if len(sys.argv) > 3 else (2, 1)
 
-from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest, command
+from runs import ENVIRONMENT, PROGRAM, SCENES, RunTest, command, run_program
 
 STEPS = "Adaptivity/Maximum steps=7"
 # No bound: which of some congruent patches is solved for all of them is not kept, and its last digits differ.
@@ -38,10 +38,7 @@ class Resume(RunTest):
         line = [PROGRAM, "--resume", directory or self.out, *options]
         for setting in settings:
             line += ["--set", setting]
-        done = subprocess.run(line, capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False)
-        self.assertEqual(done.returncode, status, done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 0 if status == 0 else 1, done.stderr)
-        return done.stderr.rstrip("\n") if status else done.stdout
+        return self.said(status, *run_program(line))
 
     def result(self):
         """Every byte but times."""
@@ -148,12 +145,9 @@ class Resume(RunTest):
 
     def test_scene_prm_reads_back(self):
         for name in ("shrink-fit", "stack"):  # sides on which nothing can act
-            printed = subprocess.run([PROGRAM, SCENES / f"{name}.prm", "--print-parameters"], capture_output=True,
-                                     text=True, env=ENVIRONMENT, timeout=60, check=True).stdout
+            printed = self.said(0, *run_program([PROGRAM, SCENES / f"{name}.prm", "--print-parameters"]))
             (self.home / "printed.prm").write_text(printed)
-            done = subprocess.run([PROGRAM, self.home / "printed.prm", "--validate"], capture_output=True, text=True,
-                                  env=ENVIRONMENT, timeout=60, check=False)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.said(0, *run_program([PROGRAM, self.home / "printed.prm", "--validate"]))
 
     def test_what_is_refused(self):
         short = ("Adaptivity/Maximum steps=2", "Error/Bound=false")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What the tests of whole runs share: the program, scenes, readers of its files."""
 
+import atexit
 import base64
 import csv
 import json
@@ -18,35 +19,29 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 import zlib
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "fuzz"))
+import served
+
 PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "prm"
 ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "LC_ALL": "C"}
 
+
+def text_of(settings):
+    """A scene with these entries; None stands for one that it has not."""
+    lines = []
+    for path, value in settings.items():
+        if value is not None:
+            section, _, name = path.rpartition("/")
+            lines += [f"subsection {section}"] * bool(section) + [f"set {name} = {value}"] + ["end"] * bool(section)
+    return "\n".join(lines) + "\n"
+
+
 # A bar under uniaxial tension: the exact solution is linear, sigma_xx = 3 and nothing else.
-BAR = """
-subsection Geometry
-  set Upper corner = 2, 1
-  set Subdivisions = 2, 1
-end
-subsection Material
-  set Young's modulus = 10
-  set Poisson's ratio = 0.25
-  set Plane           = stress
-end
-subsection Boundary left
-  set Displacement = 0; free
-end
-subsection Boundary bottom
-  set Displacement = free; 0
-end
-subsection Boundary right
-  set Traction = 3; 0
-end
-subsection Adaptivity
-  set Method        = hup2
-  set Maximum steps = 1
-end
-"""
+BAR = text_of({"Geometry/Upper corner": "2, 1", "Geometry/Subdivisions": "2, 1", "Material/Young's modulus": "10",
+               "Material/Poisson's ratio": "0.25", "Material/Plane": "stress", "Boundary left/Displacement": "0; free",
+               "Boundary bottom/Displacement": "free; 0", "Boundary right/Traction": "3; 0", "Adaptivity/Method": "hup2",
+               "Adaptivity/Maximum steps": "1"})
 
 
 def command(scene, output, *settings):
@@ -54,6 +49,24 @@ def command(scene, output, *settings):
     for setting in settings:
         line += ["--set", setting]
     return line
+
+
+SERVERS = []  # the one of this process, from the first run on
+LIBRARY = pathlib.Path(PROGRAM).parent / "tests/libfuzz_server.so"
+
+
+def run_program(line, directory="."):
+    """A run without input that is waited for: status, stdout, stderr."""
+    if not LIBRARY.exists():
+        done = subprocess.run(line, capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False, cwd=directory)
+        return done.returncode, done.stdout, done.stderr
+    if not SERVERS:
+        SERVERS.append(served.Server(PROGRAM, LIBRARY, ENVIRONMENT, os.getcwd()))
+        atexit.register(SERVERS[0].stop)
+    with tempfile.TemporaryDirectory() as home:
+        out, errors = (pathlib.Path(home) / name for name in ("out", "errors"))
+        status = SERVERS[0].run([str(word) for word in line[1:]], os.path.abspath(directory), str(out), str(errors), 1 << 40, 300, 300)[0]
+        return os.waitstatus_to_exitcode(status), out.read_text(), errors.read_text()
 
 
 class RunTest(unittest.TestCase):
@@ -66,6 +79,12 @@ class RunTest(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.home, ignore_errors=True)
         self.out = self.home / "out"
 
+    def written(self, settings, name="own.prm"):
+        """A scene of these entries, in a file."""
+        file = self.home / name
+        file.write_text(text_of(settings))
+        return file
+
     def bar(self):
         scene = self.home / "bar.prm"
         scene.write_text(BAR)
@@ -73,13 +92,17 @@ class RunTest(unittest.TestCase):
 
     def run_scene(self, *settings, status=0, scene=None, output=None, **options):
         """Run to the end; returns what it printed. A failure is one line on stderr."""
-        done = subprocess.run(command(scene or self.scene, output or self.out, *settings),
-                              stderr=subprocess.PIPE, env=ENVIRONMENT, timeout=300, check=False,
-                              **{"stdout": subprocess.PIPE, **options})
-        errors = done.stderr.decode()
-        self.assertEqual(done.returncode, status, errors)
+        line = command(scene or self.scene, output or self.out, *settings)
+        if options:
+            done = subprocess.run(line, stderr=subprocess.PIPE, env=ENVIRONMENT, timeout=300, check=False, text=True,
+                                  **{"stdout": subprocess.PIPE, **options})
+            return self.said(status, done.returncode, done.stdout, done.stderr)
+        return self.said(status, *run_program(line))
+
+    def said(self, status, ended, shown, errors):
+        self.assertEqual(ended, status, errors)
         self.assertEqual(len(errors.splitlines()), 0 if status == 0 else 1, errors)
-        return (done.stdout or b"").decode() if status == 0 else errors.rstrip("\n")
+        return (shown or "") if status == 0 else errors.rstrip("\n")
 
     def start(self, *settings, scene=None, rows=1, **options):
         """A run that has printed so many rows of its table."""
@@ -125,11 +148,7 @@ class RunTest(unittest.TestCase):
 
     def afterwards(self, *more, status=0, directory=None):
         """The report of a run that is over, by --report; returns the line that it printed."""
-        done = subprocess.run([PROGRAM, "--report", directory or self.out, *more], capture_output=True, text=True, env=ENVIRONMENT,
-                              check=False, timeout=100)
-        self.assertEqual(done.returncode, status, done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 0 if status == 0 else 1, done.stderr)
-        return done.stderr or done.stdout
+        return self.said(status, *run_program([PROGRAM, "--report", directory or self.out, *more]))
 
     def check_whole(self):
         """Every file of every step that the tables name is there and whole, and no other one."""
