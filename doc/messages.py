@@ -397,6 +397,8 @@ class Sources:
         words = {token.text for token in code}
         if has_words(text):
             return re.sub(r"^(Boundary|Material|Contact|Probe|Body(?! force)) .*", r"\1 NAME", text)
+        if [(token.kind, token.text) for token in code] == [("literal", "")]:  # an entry outside of all sections
+            return "The scene"
         if "section_of_material" in words:
             return "Material NAME"
         return SECTIONS.get(noun, "")
