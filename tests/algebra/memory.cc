@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "memory.h"
+#include "../texts.h"
 
 #include <gtest/gtest.h>
 #include <hpvi/algebra/symmetric_matrix.h>
@@ -44,21 +45,6 @@ public:
     std::ofstream(root / file) << content;
   }
 };
-
-/** What @p action fails with. */
-template <class Action>
-std::string failure_of(const Action &action)
-{
-  try
-  {
-    action();
-  }
-  catch (const NumericalFailure &failure)
-  {
-    return failure.what();
-  }
-  return "nothing";
-}
 
 /** Of the mapping that holds an address: the flags of the kernel. */
 std::string flags_of_mapping(const void *const address)
@@ -139,7 +125,8 @@ TEST(Memory, OfTheAddressSpace)
   const AddressSpaceLimit limit(64e6);
   EXPECT_LE(available_memory().bytes, 64e6);
   EXPECT_GT(available_memory().bytes, 32e6);
-  const std::string failure = failure_of([] { require_memory(65e6, "the test"); });
+  const std::string failure =
+      failure_of<NumericalFailure>([] { require_memory(65e6, "the test"); });
   EXPECT_EQ(failure.find("the test needs 65 MB of memory, "), 0u) << failure;
   EXPECT_NE(failure.find("are left of the address space (ulimit -v)"), std::string::npos);
 }
@@ -151,8 +138,10 @@ TEST(Memory, IsGrantedOnce)
   const auto is_granted_to_another = [&]()
   {
     bool granted = false;
-    std::thread([&]()
-                { granted = failure_of([&] { require_memory(some, "another"); }) == "nothing"; })
+    std::thread(
+        [&]() {
+          granted = failure_of<NumericalFailure>([&] { require_memory(some, "another"); }).empty();
+        })
         .join();
     return granted;
   };
@@ -175,7 +164,8 @@ TEST(Memory, OfTheBlas)
   if (!AddressSpaceLimit::can_be_tested())
     GTEST_SKIP();
   const AddressSpaceLimit limit(64e6);
-  EXPECT_NE(failure_of(prepare_blas).find("OpenBLAS needs 134 MB of memory"), std::string::npos);
+  EXPECT_NE(failure_of<NumericalFailure>(prepare_blas).find("OpenBLAS needs 134 MB of memory"),
+            std::string::npos);
 }
 
 TEST(Memory, InWords)
@@ -192,12 +182,14 @@ TEST(Memory, InWords)
 TEST(SymmetricMatrix, RefusesWhatItCannotCount)
 {
   SymmetricMatrix A;
-  EXPECT_NE(failure_of([&] { A.resize(2147483648); }).find("has 2147483648 entries"),
-            std::string::npos);
+  EXPECT_NE(
+      failure_of<NumericalFailure>([&] { A.resize(2147483648); }).find("has 2147483648 entries"),
+      std::string::npos);
   if (AddressSpaceLimit::can_be_tested())
   {
     const AddressSpaceLimit limit(64e6);
-    EXPECT_NE(failure_of([&] { A.resize(2147483647); }).find("the stiffness matrix needs 25.8 GB"),
+    EXPECT_NE(failure_of<NumericalFailure>([&] { A.resize(2147483647); })
+                  .find("the stiffness matrix needs 25.8 GB"),
               std::string::npos);
   }
   EXPECT_TRUE(A.row.empty());

@@ -11,22 +11,19 @@ namespace
 using namespace space;
 
 /** Laws that know the pressure, each on a contact that has one. */
-const std::vector<Overrides> laws{
-    {{"Boundary bottom/Friction bound", ""}, {"Boundary bottom/Friction coefficient", "0.6"}},
-    {{"Boundary bottom/Friction bound", "0.4"},
-     {"Boundary bottom/Friction coefficient", "0.2 + 0.1*x"},
-     {"Boundary bottom/Friction law", "limited"}},
-    {{"Boundary bottom/Friction bound", "0.2"},
-     {"Boundary bottom/Friction coefficient", "0.3"},
-     {"Boundary bottom/Friction law", "cohesive"}}};
+const std::vector<Overrides> laws{{given::coulomb("0.6")},
+                                  {{"Boundary bottom/Friction bound", "0.4"},
+                                   {"Boundary bottom/Friction coefficient", "0.2 + 0.1*x"},
+                                   {"Boundary bottom/Friction law", "limited"}},
+                                  {{"Boundary bottom/Friction bound", "0.2"},
+                                   {"Boundary bottom/Friction coefficient", "0.3"},
+                                   {"Boundary bottom/Friction law", "cohesive"}}};
 
 Scene<2> plane(const Overrides &overrides)
 {
-  Scene<2> scene =
-      read_scene<2>("prm/han-6-12-unilateral.prm", with({{"Solver/Normal contact", "multiplier"},
-                                                         {"Adaptivity/Method", "hap3"},
-                                                         {"Adaptivity/Maximum steps", "3"}},
-                                                        overrides));
+  Scene<2> scene = read_scene<2>(
+      "prm/han-6-12-unilateral.prm",
+      with({{"Solver/Normal contact", "multiplier"}, given::steps("hap3", "3")}, overrides));
   scene.solver.primal_tolerance = 1e-12;
   return scene;
 }
@@ -35,9 +32,8 @@ TEST(Coulomb, BothPathsAgreeInThePlane)
 {
   for (const Overrides &law : laws) // the reduced path bisects edges with a kink of the limit, too
     for (const char *const contact : {"unilateral", "bilateral"})
-      expect_reduced_path(plane(with(law, {{"Boundary bottom/Contact", contact},
-                                           {"Adaptivity/Method", "hup3"},
-                                           {"Adaptivity/Maximum steps", "2"}})));
+      expect_reduced_path(
+          plane(with(law, {{"Boundary bottom/Contact", contact}, given::steps("hup3", "2")})));
   for (const char *const method : {"hap2", "hap3", "hap4"})
     expect_reduced_path(plane(with(laws[0], {{"Adaptivity/Method", method}})));
 }
@@ -55,10 +51,9 @@ TEST(Coulomb, SlabIsPlaneStrain)
   for (const Overrides &law : laws)
     for (const char *const contact : {"unilateral", "bilateral"})
     {
-      const Overrides both =
-          with(law, {{"Boundary bottom/Contact", contact},
-                     {"Adaptivity/Method", &law == &laws[0] ? "hup3" : "hup2"},
-                     {"Adaptivity/Maximum steps", &law == &laws[0] ? "1" : "2"}});
+      const Overrides both = with(
+          law, {{"Boundary bottom/Contact", contact},
+                given::steps(&law == &laws[0] ? "hup3" : "hup2", &law == &laws[0] ? "1" : "2")});
       std::vector<std::array<double, 3>> flat;
       AdaptiveSolver<2>(plane(with(both, {{"Material/Plane", "strain"}})))
           .run(
@@ -67,8 +62,7 @@ TEST(Coulomb, SlabIsPlaneStrain)
                     {{step.energies.lagrangian, step.energies.energy, step.norms.total}});
               });
       const auto thick =
-          steps_of<3>(rubbing_slab(with(both, {{"Geometry/Subdivisions", "4, 4, 1"},
-                                               {"Geometry/Upper corner", "4, 4, 0.75"},
+          steps_of<3>(rubbing_slab(with(both, {given::box("4, 4, 0.75", "4, 4, 1"),
                                                {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
                                                {"Boundary front/Displacement", "free; free; 0"},
                                                {"Boundary back/Displacement", "free; free; 0"}})));
@@ -82,32 +76,10 @@ TEST(Coulomb, SlabIsPlaneStrain)
     }
 }
 
-/** y and z changed about: the foundation lies in front, or, mirrored, behind. */
 TEST(Coulomb, TurnedSlabsAgree)
 {
-  const auto turned = [](const std::string &side, const std::string &depth, const std::string &sign)
-  {
-    return slab({{"Geometry/Upper corner", "4, 2, 4"},
-                 {"Geometry/Subdivisions", "4, 2, 4"},
-                 {"Boundary left/Traction", "1.5*(5 - " + depth + "); 0.5; " + sign + "0.75"},
-                 {"Boundary bottom/Contact", "none"},
-                 {"Boundary bottom/Friction bound", ""},
-                 {"Boundary " + side + "/Contact", "unilateral"},
-                 {"Boundary " + side + "/Friction coefficient", "0.4 + 0.1*y"},
-                 {"Adaptivity/Maximum steps", "2"}});
-  };
-  const auto upright = steps_of<3>(
-                 rubbing_slab({{"Boundary bottom/Friction bound", ""},
-                               {"Boundary bottom/Friction coefficient", "0.4 + 0.1*z"}})),
-             front = steps_of<3>(turned("front", "z", "-")),
-             back = steps_of<3>(turned("back", "(4 - z)", ""));
-  for (unsigned int k = 0; k < upright.size(); ++k)
-    for (const auto *other : {&front[k], &back[k]})
-    {
-      EXPECT_EQ(upright[k].n_free, other->n_free);
-      EXPECT_EQ(upright[k].n_slipping, other->n_slipping);
-      EXPECT_NEAR(upright[k].lagrangian, other->lagrangian, 1e-9 * std::abs(other->lagrangian));
-    }
+  expect_turned(rubbing_slab({given::coulomb("0.4 + 0.1*z")}),
+                {{"Friction coefficient", "0.4 + 0.1*y"}}, 1e-9);
 }
 
 /**
@@ -168,8 +140,7 @@ TEST(Coulomb, TheLawHoldsAtPoints)
   for (const char *const method : {"hap2", "hap3"})
     steps_of<3>(rubbing_slab({{"Adaptivity/Method", method},
                               {"Geometry/Subdivisions", "2, 2, 1"},
-                              {"Boundary bottom/Friction bound", ""},
-                              {"Boundary bottom/Friction coefficient", "0.6"}}),
+                              given::coulomb("0.6")}),
                 [](const StepReport<3> &step)
                 {
                   EXPECT_LT(step.equilibrium.force_imbalance, 1e-9);
@@ -198,20 +169,11 @@ TEST(Coulomb, TheLawHoldsAtPoints)
 /** A law that does not let go: the run ends with what to try. */
 TEST(Coulomb, WithoutAFixedPointItFails)
 {
-  const Scene<3> scene = rubbing_slab({{"Boundary bottom/Friction bound", ""},
-                                       {"Boundary bottom/Friction coefficient", "50"},
+  const Scene<3> scene = rubbing_slab({given::coulomb("50"),
                                        {"Boundary left/Traction", "1.5*(5 - y); -7; 0.5"},
                                        {"Adaptivity/Maximum steps", "1"}});
-  try
-  {
-    steps_of<3>(scene);
-    ADD_FAILURE();
-  }
-  catch (const NumericalFailure &failure)
-  {
-    EXPECT_NE(std::string(failure.what()).find("lower Friction coefficient"), std::string::npos)
-        << failure.what();
-  }
+  const std::string failure = ::failure_of<NumericalFailure>([&] { steps_of<3>(scene); });
+  EXPECT_TRUE(says(failure, "lower Friction coefficient")) << failure;
 }
 
 /** Where no tolerance is named, what the fixed point leaves is small beside the indicator. */

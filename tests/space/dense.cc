@@ -140,16 +140,14 @@ TEST(Dense, Adaptive)
 
 TEST(Dense, DegreeThreeWithABoundThatVanishes)
 {
-  expect_dual_minimum(slab({{"Adaptivity/Maximum steps", "1"},
-                            {"Adaptivity/Method", "hap3"},
-                            {"Boundary bottom/Friction bound", "6*max(0, x - 1 - z)"}}));
+  expect_dual_minimum(
+      slab({given::steps("hap3", "1"), {"Boundary bottom/Friction bound", "6*max(0, x - 1 - z)"}}));
 }
 
 TEST(Dense, UnilateralContact)
 {
   for (const char *const method : {"hap2", "hap3"})
-    expect_dual_minimum(slab({{"Adaptivity/Maximum steps", "1"},
-                              {"Adaptivity/Method", method},
+    expect_dual_minimum(slab({given::steps(method, "1"),
                               {"Boundary bottom/Contact", "unilateral"},
                               {"Boundary bottom/Gap", "0.004*x*z"}}));
 }

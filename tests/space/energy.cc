@@ -21,12 +21,11 @@ std::vector<double> upper_ends(const Scene<3> &scene)
 /** Example 5.2 as a slab of plane strain: above its limit, and it falls. */
 TEST(UpperEnergy, IsBoundedFromAbove)
 {
-  Scene<3> scene = slab({{"Adaptivity/Method", "hap2"},
+  Scene<3> scene = slab({given::steps("hap2", "3"),
                          {"Geometry/Subdivisions", "2, 2, 1"},
                          {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
                          {"Boundary front/Displacement", "free; free; 0"},
-                         {"Boundary back/Displacement", "free; free; 0"},
-                         {"Adaptivity/Maximum steps", "3"}});
+                         {"Boundary back/Displacement", "free; free; 0"}});
   double previous = 0;
   for (const double high : upper_ends(scene))
   {
@@ -52,8 +51,7 @@ TEST(UpperEnergy, IsThatOfTheThesis)
 TEST(UpperEnergy, KnowsWhatRulesMiss)
 {
   const Overrides wavy{{"Boundary left/Traction", "exp(y) - 400; -0.75; 0.5"},
-                       {"Adaptivity/Method", "hup2"},
-                       {"Adaptivity/Maximum steps", "1"}};
+                       given::steps("hup2", "1")};
   steps_of<3>(slab(wavy),
               [](const StepReport<3> &step)
               {
@@ -68,7 +66,7 @@ TEST(UpperEnergy, IsOpenElsewhere)
   const Overrides once{{"Adaptivity/Maximum steps", "1"}};
   const std::vector<Overrides> cases{
       {{"Boundary bottom/Contact", "unilateral"}},
-      {{"Boundary bottom/Friction bound", ""}, {"Boundary bottom/Friction coefficient", "0.3"}},
+      {given::coulomb("0.3")},
       {{"Boundary right/Displacement", "0.01*sin(y); 0; 0"}},
       {{"Boundary left/Traction", "if((y - 1.3)^2 + (z - 1)^2 < 0.1, 40, 0); 0; 0"}}};
   for (Overrides entries : cases)

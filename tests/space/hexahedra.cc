@@ -484,16 +484,9 @@ TEST(Hexahedra, AreRefusedInOneLine)
 {
   const auto refused = [](const Grid &grid)
   {
-    std::string line;
     grid.write("hexahedra-bad.msh");
-    try
-    {
-      read_hexahedral_file("hexahedra-bad.msh");
-    }
-    catch (const InputError &error)
-    {
-      line = error.what();
-    }
+    const std::string line =
+        ::failure_of<InputError>([] { read_hexahedral_file("hexahedra-bad.msh"); });
     std::filesystem::remove("hexahedra-bad.msh");
     return line;
   };

@@ -68,17 +68,14 @@ Overrides fretting(const unsigned int dim, const std::string &law, const Overrid
   const std::string motion = "0.02*sin(2*pi*t)", press = "-0.02";
   Overrides result{{"Units/Length", ""},
                    {"Units/Stress", ""},
-                   {"Material/Young's modulus", "10"},
-                   {"Material/Poisson's ratio", "0.3"},
+                   given::elastic("10", "0.3"),
                    {"Boundary left/Traction", ""},
                    {"Boundary right/Displacement", ""},
-                   {"Boundary bottom/Contact", "unilateral"},
-                   {"Boundary bottom/Friction bound", law == "tresca" ? "0.03" : ""},
+                   given::rough("bottom", "unilateral", law == "tresca" ? "0.03" : ""),
                    {"Boundary bottom/Friction coefficient", law == "tresca" ? "" : "0.4"},
                    {"Solver/Normal contact", "multiplier"},
                    {"Solver/Primal tolerance", "1e-11"},
-                   {"Adaptivity/Method", "hap2"},
-                   {"Adaptivity/Maximum steps", "2"},
+                   given::steps("hap2", "2"),
                    {"Loading/Steps", "6"},
                    {"Boundary top/Displacement",
                     dim == 2 ? motion + "; " + press : motion + "; " + press + "; 0"}};
@@ -104,8 +101,7 @@ Scene<3> in_space(const std::string &law, const Overrides &more = {})
 
 Scene<3> layer(const std::string &law, const Overrides &more = {})
 {
-  Overrides all{{"Geometry/Upper corner", "4, 2, 0.5"},
-                {"Geometry/Subdivisions", "4, 2, 1"},
+  Overrides all{given::box("4, 2, 0.5", "4, 2, 1"),
                 {"Boundary front/Displacement", "free; free; 0"},
                 {"Boundary back/Displacement", "free; free; 0"}};
   all.insert(all.end(), more.begin(), more.end());
@@ -159,7 +155,7 @@ TEST(History, SlabIsPlaneStrain)
 {
   for (const char *const law : {"tresca", "coulomb"})
   {
-    const Overrides uniform{{"Adaptivity/Method", "hup2"}, {"Adaptivity/Maximum steps", "1"}};
+    const Overrides uniform{given::steps("hup2", "1")};
     expect_equal(evolution<3>(layer(law, uniform)), evolution<2>(in_plane(law, uniform)), 0.5);
   }
 }
@@ -185,8 +181,7 @@ TEST(History, EnergyIsBalancedOnRefinedMeshes)
 TEST(History, LoopsClose)
 {
   const Scene<3> scene =
-      layer("tresca", {{"Adaptivity/Method", "hup2"},
-                       {"Adaptivity/Maximum steps", "1"},
+      layer("tresca", {given::steps("hup2", "1"),
                        {"Loading/Steps", "18"},
                        {"Boundary top/Displacement", "0.03*cos(6*pi*t); free; free"},
                        {"Boundary bottom/Contact", "bilateral"}});
@@ -202,10 +197,8 @@ TEST(History, LoopsClose)
 /** What sticks does not move while the rest slips back. */
 TEST(History, SlipIsCountedFromTheLoadStepBefore)
 {
-  evolution<3>(in_space("coulomb", {{"Geometry/Upper corner", "4, 2, 2"},
-                                    {"Geometry/Subdivisions", "4, 1, 2"},
-                                    {"Adaptivity/Method", "hup2"},
-                                    {"Adaptivity/Maximum steps", "1"},
+  evolution<3>(in_space("coulomb", {given::box("4, 2, 2", "4, 1, 2"),
+                                    given::steps("hup2", "1"),
                                     {"Loading/Steps", "3"}}),
                MPI_COMM_SELF,
                [](const StepReport<3> &step)

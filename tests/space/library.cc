@@ -95,12 +95,9 @@ void expect_to_go_on(const Scene<dim> &scene)
 
 TEST(Ranks, LibraryGoesOnFromARunState)
 {
-  expect_to_go_on(slab({{"Geometry/Subdivisions", "2, 1, 2"},
-                        {"Adaptivity/Method", "hap2"},
-                        {"Adaptivity/Maximum steps", "4"}}));
-  Scene<2> scene = read_scene<2>("prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"},
-                                                      {"Solver/Path", "primal"},
-                                                      {"Adaptivity/Maximum steps", "4"}});
+  expect_to_go_on(slab({{"Geometry/Subdivisions", "2, 1, 2"}, given::steps("hap2", "4")}));
+  Scene<2> scene = read_scene<2>("prm/han-6-12.prm",
+                                 Overrides{given::steps("hap3", "4"), {"Solver/Path", "primal"}});
   scene.solver.primal_tolerance = 1e-11;
   expect_to_go_on(scene);
 }

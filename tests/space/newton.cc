@@ -60,8 +60,7 @@ TEST(Newton, SaysHowMuchMemoryItIsAboutToTake)
 TEST(Newton, GivesWayToTheAugmentedLagrangian)
 {
   steps_of<3>(slab({{"Adaptivity/Maximum steps", "2"}}), expect_fallback<3>);
-  Scene<2> plane = read_scene<2>(
-      "prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "3"}});
+  Scene<2> plane = read_scene<2>("prm/han-6-12.prm", Overrides{given::steps("hap3", "3")});
   plane.solver.primal_tolerance = 1e-11;
   steps_of<2>(plane, expect_fallback<2>);
 }
@@ -72,9 +71,9 @@ TEST(Newton, StepsDoNotGrowWithTheDiscs)
   std::vector<unsigned int> steps;
   for (const char *const subdivisions : {"150, 1", "600, 1"})
   {
-    Scene<2> scene = read_scene<2>("prm/han-6-12.prm", {{"Adaptivity/Method", "hap2"},
-                                                        {"Geometry/Subdivisions", subdivisions},
-                                                        {"Adaptivity/Maximum steps", "1"}});
+    Scene<2> scene =
+        read_scene<2>("prm/han-6-12.prm", Overrides{given::steps("hap2", "1"),
+                                                    {"Geometry/Subdivisions", subdivisions}});
     scene.solver.primal_tolerance = 1e-10;
     double reduced = 0;
     AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step)
@@ -116,8 +115,7 @@ TEST(Newton, StopsWhereTheEstimatedErrorSaysSo)
 /** What supports, contact and loads do to the body adds up to nothing, and to the same on both paths. */
 TEST(Newton, ForcesAreThoseOfTheReducedPath)
 {
-  Scene<2> scene = read_scene<2>(
-      "prm/han-6-12.prm", {{"Adaptivity/Method", "hap3"}, {"Adaptivity/Maximum steps", "3"}});
+  Scene<2> scene = read_scene<2>("prm/han-6-12.prm", Overrides{given::steps("hap3", "3")});
   scene.solver.primal_tolerance = 1e-12;
   std::vector<Equilibrium<2>> reduced, primal;
   AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step)
@@ -139,9 +137,7 @@ TEST(Newton, ForcesAreThoseOfTheReducedPath)
 /** A fiftieth of the contact dofs may change its state before multigrid is set up anew, and no more. */
 TEST(Newton, SetsMultigridUpWhereMoreThanAFiftiethHasChanged)
 {
-  const Scene<3> scene = slab({{"Geometry/Subdivisions", "10, 1, 10"},
-                               {"Adaptivity/Method", "hup2"},
-                               {"Adaptivity/Maximum steps", "1"}});
+  const Scene<3> scene = slab({{"Geometry/Subdivisions", "10, 1, 10"}, given::steps("hup2", "1")});
   steps_of<3>(scene,
               [](const StepReport<3> &step)
               {

@@ -50,8 +50,7 @@ TEST(Plane, BothPathsAgree)
 {
   for (const char *const method : {"hap2", "hap3", "hup4"})
   {
-    const Scene<2> scene =
-        example("han-6-12", {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "4"}});
+    const Scene<2> scene = example("han-6-12", {given::steps(method, "4")});
     expect_equal(steps_of<2>(scene), reduced_steps(scene));
   }
 }
@@ -59,19 +58,17 @@ TEST(Plane, BothPathsAgree)
 TEST(Plane, BothPathsAgreeWhereTheBoundVaries)
 {
   const Scene<2> scene =
-      example("han-6-12", {{"Adaptivity/Method", "hap3"},
+      example("han-6-12", {given::steps("hap3", "3"),
                            {"Boundary bottom/Friction bound", "1 + x^2"},
-                           {"Boundary top/Displacement", "free; -0.01*x*(4 - x)"},
-                           {"Adaptivity/Maximum steps", "3"}});
+                           {"Boundary top/Displacement", "free; -0.01*x*(4 - x)"}});
   expect_equal(steps_of<2>(scene), reduced_steps(scene));
 }
 
 /** h_K is the longest edge. */
 TEST(Plane, BothPathsAgreeOnRectangles)
 {
-  const Scene<2> scene = example("han-6-12", {{"Adaptivity/Method", "hap2"},
-                                              {"Geometry/Subdivisions", "2, 6"},
-                                              {"Adaptivity/Maximum steps", "2"}});
+  const Scene<2> scene =
+      example("han-6-12", {given::steps("hap2", "2"), {"Geometry/Subdivisions", "2, 6"}});
   expect_equal(steps_of<2>(scene), reduced_steps(scene));
 }
 
@@ -79,9 +76,8 @@ TEST(Plane, BothPathsAgreeOnRectangles)
 TEST(Plane, DiscsWithoutFrictionSlip)
 {
   const Scene<2> scene =
-      example("han-6-12", {{"Adaptivity/Method", "hup3"},
-                           {"Boundary bottom/Friction bound", "if(x < 2, 0, 45)"},
-                           {"Adaptivity/Maximum steps", "1"}});
+      example("han-6-12",
+              {given::steps("hup3", "1"), {"Boundary bottom/Friction bound", "if(x < 2, 0, 45)"}});
   steps_of<2>(scene,
               [](const StepReport<2> &step)
               {
@@ -100,16 +96,13 @@ TEST(Plane, SlabIsPlaneStrain)
 {
   for (const char *const method : {"hup2", "hup3"})
   {
-    const Scene<2> plane = example("han-6-12", {{"Adaptivity/Method", method},
-                                                {"Material/Plane", "strain"},
-                                                {"Adaptivity/Maximum steps", "2"}});
-    const Scene<3> scene = slab({{"Adaptivity/Method", method},
-                                 {"Geometry/Subdivisions", "4, 4, 1"},
-                                 {"Geometry/Upper corner", "4, 4, 0.75"},
+    const Scene<2> plane =
+        example("han-6-12", {given::steps(method, "2"), {"Material/Plane", "strain"}});
+    const Scene<3> scene = slab({given::steps(method, "2"),
+                                 given::box("4, 4, 0.75", "4, 4, 1"),
                                  {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
                                  {"Boundary front/Displacement", "free; free; 0"},
-                                 {"Boundary back/Displacement", "free; free; 0"},
-                                 {"Adaptivity/Maximum steps", "2"}});
+                                 {"Boundary back/Displacement", "free; free; 0"}});
     const auto thick = steps_of<3>(scene), flat = reduced_steps(plane);
     for (unsigned int k = 0; k < flat.size(); ++k)
       EXPECT_NEAR(thick[k].lagrangian / 0.75, flat[k].lagrangian,
@@ -122,11 +115,9 @@ TEST(Plane, SlabOfLayersHasTheIndicatorOfPlaneStrain)
 {
   const Overrides layers{{"Material stiff/Where", "y - 2"},
                          {"Material stiff/Young's modulus", "15000"},
-                         {"Adaptivity/Method", "hup2"},
-                         {"Adaptivity/Maximum steps", "2"}};
+                         given::steps("hup2", "2")};
   Overrides flat{{"Material/Plane", "strain"}},
-      thick{{"Geometry/Subdivisions", "4, 4, 1"},
-            {"Geometry/Upper corner", "4, 4, 0.75"},
+      thick{given::box("4, 4, 0.75", "4, 4, 1"),
             {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
             {"Boundary front/Displacement", "free; free; 0"},
             {"Boundary back/Displacement", "free; free; 0"}};
@@ -147,12 +138,11 @@ TEST(Plane, SlabOfLayersHasTheIndicatorOfPlaneStrain)
 TEST(Plane, AdaptiveSlabTendsToPlaneStrain)
 {
   const double limit = -4.879036, thickness = 2;
-  Scene<3> scene = slab({{"Adaptivity/Method", "hap3"},
+  Scene<3> scene = slab({given::steps("hap3", "4"),
                          {"Geometry/Subdivisions", "2, 2, 1"},
                          {"Boundary left/Traction", "1.5*(5 - y); -0.75; 0"},
                          {"Boundary front/Displacement", "free; free; 0"},
-                         {"Boundary back/Displacement", "free; free; 0"},
-                         {"Adaptivity/Maximum steps", "4"}});
+                         {"Boundary back/Displacement", "free; free; 0"}});
   scene.solver.primal_tolerance = 1e-8;
   double previous = std::numeric_limits<double>::infinity();
   for (const Step &step : steps_of<3>(scene))
@@ -169,13 +159,11 @@ TEST(Plane, AdaptiveSlabTendsToPlaneStrain)
 TEST(Plane, TurnedSlabsAgree)
 {
   const Overrides steps{{"Adaptivity/Maximum steps", "3"}};
-  Overrides turned{{"Geometry/Upper corner", "4, 2, 4"},
-                   {"Geometry/Subdivisions", "4, 2, 4"},
+  Overrides turned{given::box("4, 2, 4", "4, 2, 4"),
                    {"Boundary left/Traction", "1.5*(5 - z); 0.5; -0.75"},
                    {"Boundary bottom/Contact", "none"},
                    {"Boundary bottom/Friction bound", ""},
-                   {"Boundary front/Contact", "bilateral"},
-                   {"Boundary front/Friction bound", "4.5"}};
+                   given::rough("front", "bilateral", "4.5")};
   turned.insert(turned.end(), steps.begin(), steps.end());
   const auto upright = steps_of<3>(slab(steps)), lying = steps_of<3>(slab(turned));
   for (unsigned int k = 0; k < upright.size(); ++k)
@@ -220,24 +208,18 @@ TEST(Plane, BilateralContactThatPullsIsSaid)
   for (const auto &[load, pulls] : {std::make_pair("0; 10", true), {"0; -0.001", false}})
   {
     std::vector<std::string> warnings;
-    steps_of<2>(example("han-6-12", {{"Adaptivity/Method", "hup2"},
-                                     {"Adaptivity/Maximum steps", "2"},
+    steps_of<2>(example("han-6-12", {given::steps("hup2", "2"),
                                      {"Boundary left/Traction", load},
                                      {"Boundary top/Traction", pulls ? "" : "0; -50"}}),
                 [&](const StepReport<2> &step) { warnings = texts(step.warnings); });
-    const bool is_said =
-        std::any_of(warnings.begin(), warnings.end(),
-                    [](const std::string &warning)
-                    { return warning.find("bilateral contact pulls") != std::string::npos; });
-    EXPECT_EQ(is_said, pulls) << load;
+    EXPECT_EQ(mentions(warnings, "bilateral contact pulls"), pulls) << load;
   }
 }
 
 /** A thirtieth of the time of all steps is over before the last one. */
 TEST(Plane, MaximumSecondsAreSeconds)
 {
-  Scene<2> scene =
-      example("han-6-12", {{"Adaptivity/Method", "hup3"}, {"Adaptivity/Maximum steps", "5"}});
+  Scene<2> scene = example("han-6-12", {given::steps("hup3", "5")});
   double seconds = 0;
   const std::size_t n_steps =
       steps_of<2>(scene, [&](const StepReport<2> &step) { seconds = step.seconds; }).size();

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -71,6 +72,38 @@ std::vector<Step> steps_of(
             look(step);
           });
   return steps;
+}
+
+/**
+ * y and z of @p upright changed about: the foundation, which has @p contact there, lies in front, or, mirrored, behind.
+ */
+inline void expect_turned(const Scene<3> &upright, const Overrides &contact, const double tolerance)
+{
+  const auto known = steps_of<3>(upright);
+  for (const auto &[side, depth, sign] :
+       {std::make_tuple("front", "z", "-"), std::make_tuple("back", "(4 - z)", "")})
+  {
+    const std::string section = std::string("Boundary ") + side + "/";
+    Overrides entries{
+        given::box("4, 2, 4", "4, 2, 4"),
+        {"Boundary left/Traction", std::string("1.5*(5 - ") + depth + "); 0.5; " + sign + "0.75"},
+        {"Boundary bottom/Contact", "none"},
+        {"Boundary bottom/Friction bound", ""},
+        {section + "Contact", "unilateral"},
+        {"Adaptivity/Maximum steps", "2"}};
+    for (const auto &[entry, value] : contact)
+      entries.emplace_back(section + entry, value);
+    const auto turned = steps_of<3>(slab(entries));
+    ASSERT_EQ(turned.size(), known.size());
+    for (unsigned int k = 0; k < known.size(); ++k)
+    {
+      EXPECT_EQ(known[k].n_free, turned[k].n_free);
+      EXPECT_EQ(known[k].n_slipping, turned[k].n_slipping);
+      EXPECT_EQ(known[k].n_pressing, turned[k].n_pressing);
+      EXPECT_NEAR(known[k].lagrangian, turned[k].lagrangian,
+                  tolerance * std::abs(turned[k].lagrangian));
+    }
+  }
 }
 
 /** A displacement and its gradient, (i,j) is d_j u_i. */

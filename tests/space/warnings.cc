@@ -18,15 +18,13 @@ Scene<dim> block(const Overrides &entries)
 {
   Overrides all{{"Units/Length", ""},
                 {"Units/Stress", ""},
-                {"Geometry/Upper corner", dim == 2 ? "1, 1" : "1, 1, 1"},
-                {"Geometry/Subdivisions", dim == 2 ? "2, 2" : "2, 2, 2"},
+                given::box(dim == 2 ? "1, 1" : "1, 1, 1", dim == 2 ? "2, 2" : "2, 2, 2"),
                 {"Boundary left/Traction", ""},
                 {"Boundary right/Displacement", ""},
                 {"Boundary bottom/Contact", "none"},
                 {"Boundary bottom/Friction bound", ""},
                 {"Solver/Normal contact", "multiplier"},
-                {"Adaptivity/Method", "hup2"},
-                {"Adaptivity/Maximum steps", "1"}};
+                given::steps("hup2", "1")};
   all.insert(all.end(), entries.begin(), entries.end());
   return read_scene<dim>(dim == 2 ? "prm/han-6-12.prm" : "prm/slab.prm", all);
 }

@@ -40,7 +40,7 @@ double last_rate(const std::vector<Row> &rows)
 
 Overrides adaptivity(const std::string &method, const unsigned int steps)
 {
-  return {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", std::to_string(steps)}};
+  return {given::steps(method, std::to_string(steps))};
 }
 
 // ---------------------------------------------------------------- closed forms
@@ -94,8 +94,7 @@ TEST(TrueError, OnLongCellsIsThatOnSquareOnes)
 {
   std::vector<double> norms;
   for (const char *const subdivisions : {"4, 1", "4, 256"})
-    AdaptiveSolver<2>(shipped_scene("partial-slip", {{"Geometry/Upper corner", "2, 256"},
-                                                     {"Geometry/Subdivisions", subdivisions},
+    AdaptiveSolver<2>(shipped_scene("partial-slip", {given::box("2, 256", subdivisions),
                                                      {"Adaptivity/Maximum steps", "1"}}))
         .run([&](const StepReport<2> &step) { norms.push_back(step.errors.energy_norm); });
   ASSERT_EQ(norms.size(), 2u);
@@ -238,12 +237,8 @@ TEST(StoredSolution, MeasuresWhatTheExactSolutionMeasures)
 /** Without friction the spaces are nested and Pythagoras holds: |u - u_N|^2 = |u|^2 - |u_N|^2. */
 TEST(StoredSolution, ObeysPythagoras)
 {
-  const auto without_friction = [](const std::string &degree)
-  {
-    return Overrides{{"Boundary bottom/Friction bound", ""},
-                     {"Adaptivity/Method", "hup2"},
-                     {"Adaptivity/Start degree", degree},
-                     {"Adaptivity/Maximum steps", "1"}};
+  const auto without_friction = [](const std::string &degree) {
+    return Overrides{{"Boundary bottom/Friction bound", ""}, given::steps("hup2", "1", degree)};
   };
   const ReferenceFile file(shipped_scene("han-6-12", without_friction("9")));
   for (const std::string degree : {"2", "5"})
@@ -267,8 +262,7 @@ TEST(StoredSolution, ObeysPythagoras)
 TEST(StoredSolution, KeepsCellsOfAnyDepth)
 {
   const Overrides overrides = {{"Adaptivity/Maximum steps", "1"},
-                               {"Geometry/Graded towards", "0, 0"},
-                               {"Geometry/Grading levels", "36"}};
+                               given::graded("Geometry", "0, 0", "36")};
   const ReferenceFile file(shipped_scene("stick-slip", overrides));
   Scene<2> scene = shipped_scene("stick-slip", overrides);
   scene.exact_solution = nullptr;
@@ -373,8 +367,7 @@ TEST(Limits, ATakenToleranceIsTheOnlyOne)
                       {"Boundary left/Displacement", "exact"},
                       {"Boundary right/Displacement", "exact"},
                       {"Boundary top/Traction", "exact"},
-                      {"Boundary bottom/Contact", "bilateral"},
-                      {"Boundary bottom/Friction bound", "0.1"}})
+                      given::rough("bottom", "bilateral", "0.1")})
                 .adaptivity.tolerance,
             0);
 }

@@ -14,8 +14,7 @@ namespace
 constexpr double pi = numbers::PI, young = 10, poisson = 0.3, mu = young / 2.6,
                  lambda = young * 0.3 / (1.3 * 0.4);
 
-const Overrides turned = {{"Material/Young's modulus", "10"},
-                          {"Material/Poisson's ratio", "0.3"},
+const Overrides turned = {given::elastic("10", "0.3"),
                           {"Material/Plane", "axisymmetric"},
                           {"Geometry/Subdivisions", "2, 2"}};
 const Overrides ring =
@@ -34,22 +33,19 @@ std::vector<Step> steps_of(const Overrides &entries, const unsigned int degree,
                            const unsigned int n_steps)
 {
   std::vector<Step> result;
-  AdaptiveSolver<2>(
-      scene_of(entries + Overrides{{"Adaptivity/Method", "pu"},
-                                   {"Adaptivity/Start degree", std::to_string(degree)},
-                                   {"Adaptivity/Maximum steps", std::to_string(n_steps)}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            result.push_back({step.energies.energy, 0.5 * std::pow(step.energies.norm, 2),
-                              step.norms.total, 0, 0, step.equilibrium});
-            if (!step.contact.empty())
-            {
-              result.back().slip = step.contact[0].points[0].slip;
-              result.back().normal_resultant = step.contact[0].normal_resultant;
-            }
-            EXPECT_LT(step.equilibrium.force_imbalance, 1e-10);
-          });
+  each_step<2>(scene_of(entries + Overrides{given::steps("pu", std::to_string(n_steps),
+                                                         std::to_string(degree))}),
+               [&](const StepReport<2> &step)
+               {
+                 result.push_back({step.energies.energy, 0.5 * std::pow(step.energies.norm, 2),
+                                   step.norms.total, 0, 0, step.equilibrium});
+                 if (!step.contact.empty())
+                 {
+                   result.back().slip = step.contact[0].points[0].slip;
+                   result.back().normal_resultant = step.contact[0].normal_resultant;
+                 }
+                 EXPECT_LT(step.equilibrium.force_imbalance, 1e-10);
+               });
   return result;
 }
 
@@ -93,8 +89,7 @@ TEST(Axisymmetric, RotatingShaftIsExact)
 /** u = (a x, b y) has a uniform stress: exact on skew cells with hanging nodes and any degrees. */
 TEST(Axisymmetric, UniformStressOnAnyMesh)
 {
-  const Overrides skew = {{"Material/Young's modulus", "10"},
-                          {"Material/Poisson's ratio", "0.3"},
+  const Overrides skew = {given::elastic("10", "0.3"),
                           {"Material/Plane", "axisymmetric"},
                           {"Geometry/Shape", "quadrilateral"},
                           {"Geometry/Subdivisions", "3, 2"}};
@@ -220,24 +215,21 @@ TEST(Axisymmetric, FarFromTheAxisIsPlaneStrain)
   {
     const std::string x = "(x - " + in_digits(radius) + ")";
     std::vector<std::vector<double>> result;
-    AdaptiveSolver<2>(scene_of({{"Material/Young's modulus", "10"},
-                                {"Material/Poisson's ratio", "0.3"},
-                                {"Material/Plane", plane},
-                                {"Material/Density", "0.1"},
-                                {"Material/Initial strain", "0; 0; 0.02*" + x + "^2; 0.01*y"},
-                                {"Body force/Gravity", "0; -1"},
-                                {"Geometry/Lower corner", in_digits(radius) + ", 0"},
-                                {"Geometry/Upper corner", in_digits(radius + 2) + ", 1"},
-                                {"Geometry/Subdivisions", "4, 2"},
-                                {"Boundary left/Displacement", "0; free"},
-                                {"Boundary right/Spring", "2; 1"},
-                                {"Boundary top/Pressure", "1 + " + x + "^2"},
-                                {"Boundary bottom/Contact", "unilateral"},
-                                {"Boundary bottom/Gap", "0.05*" + x},
-                                {"Boundary bottom/" + friction, "0.1*(1 + " + x + ")"},
-                                {"Solver/Normal contact", "multiplier"},
-                                {"Adaptivity/Method", "hup3"},
-                                {"Adaptivity/Maximum steps", "2"}}))
+    AdaptiveSolver<2>(
+        scene_of({given::elastic("10", "0.3"),
+                  {"Material/Plane", plane},
+                  {"Material/Density", "0.1"},
+                  {"Material/Initial strain", "0; 0; 0.02*" + x + "^2; 0.01*y"},
+                  {"Body force/Gravity", "0; -1"},
+                  given::box(in_digits(radius) + ", 0", in_digits(radius + 2) + ", 1", "4, 2"),
+                  {"Boundary left/Displacement", "0; free"},
+                  {"Boundary right/Spring", "2; 1"},
+                  {"Boundary top/Pressure", "1 + " + x + "^2"},
+                  {"Boundary bottom/Contact", "unilateral"},
+                  {"Boundary bottom/Gap", "0.05*" + x},
+                  {"Boundary bottom/" + friction, "0.1*(1 + " + x + ")"},
+                  {"Solver/Normal contact", "multiplier"},
+                  given::steps("hup3", "2")}))
         .run([&](const StepReport<2> &step) { result.push_back(amounts(step)); });
     return result;
   };
@@ -263,28 +255,24 @@ TEST(Axisymmetric, ScaledAndMirrored)
     const std::string x = "(x/" + in_digits(length) + ")", y = "(y/" + in_digits(up * length) + ")";
     const std::string base = up > 0 ? "bottom" : "top", roof = up > 0 ? "top" : "bottom";
     std::vector<double> result;
-    AdaptiveSolver<2>(
-        scene_of({{"Material/Young's modulus", "10"},
-                  {"Material/Poisson's ratio", "0.3"},
-                  {"Material/Plane", "axisymmetric"},
-                  {"Material/Thermal expansion", "0.01"},
-                  {"Temperature/Expression", x + "^2 + " + y},
-                  {"Geometry/Lower corner", "0, " + in_digits(up > 0 ? 0. : -length)},
-                  {"Geometry/Upper corner",
-                   in_digits(2 * length) + ", " + in_digits(up > 0 ? length : 0.)},
-                  {"Geometry/Subdivisions", "4, 2"},
-                  {"Boundary right/Spring", in_digits(2 / length) + "; " + in_digits(1 / length)},
-                  {"Boundary " + roof + "/Pressure", "1 + " + x + "^2"},
-                  {"Boundary " + base + "/Contact", "unilateral"},
-                  {"Boundary " + base + "/Friction coefficient", "0.1"},
-                  {"Adaptivity/Method", "hpa3"},
-                  {"Adaptivity/Maximum steps", "3"}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              result.push_back(step.energies.energy / std::pow(length, 3));
-              result.push_back(std::pow(step.norms.total, 2) / std::pow(length, 3));
-            });
+    each_step<2>(
+        scene_of(
+            {given::elastic("10", "0.3"),
+             {"Material/Plane", "axisymmetric"},
+             {"Material/Thermal expansion", "0.01"},
+             {"Temperature/Expression", x + "^2 + " + y},
+             given::box("0, " + in_digits(up > 0 ? 0. : -length),
+                        in_digits(2 * length) + ", " + in_digits(up > 0 ? length : 0.), "4, 2"),
+             {"Boundary right/Spring", in_digits(2 / length) + "; " + in_digits(1 / length)},
+             {"Boundary " + roof + "/Pressure", "1 + " + x + "^2"},
+             {"Boundary " + base + "/Contact", "unilateral"},
+             {"Boundary " + base + "/Friction coefficient", "0.1"},
+             given::steps("hpa3", "3")}),
+        [&](const StepReport<2> &step)
+        {
+          result.push_back(step.energies.energy / std::pow(length, 3));
+          result.push_back(std::pow(step.norms.total, 2) / std::pow(length, 3));
+        });
     return result;
   };
   const std::vector<double> here = energies(1, 1);
@@ -321,10 +309,8 @@ TEST(Axisymmetric, AxisOfADrawing)
                      {"Geometry/File", cylinder_file({{one, other}})},
                      {"Geometry/Subdivisions", "1, 1"}};
   };
-  const auto quadrilateral = [](const std::string &one, const std::string &other)
-  {
-    return Overrides{{"Geometry/Shape", "quadrilateral"},
-                     {"Geometry/Corners", one + ", 0; 1, 0; 1, 2; " + other + ", 2"}};
+  const auto quadrilateral = [](const std::string &one, const std::string &other) {
+    return Overrides{given::quadrilateral("Geometry", one + ", 0; 1, 0; 1, 2; " + other + ", 2")};
   };
   const std::vector<Overrides> rows{
       file(0, 0),
@@ -411,11 +397,9 @@ Step pressed(const std::function<Tensor<1, 2>(const Point<2> &)> &u, const Expre
   Scene<2> scene = scene_of(turned + entries +
                             Overrides{{"Material/Young's modulus", "200"},
                                       {"Geometry/Upper corner", "2, 2"},
-                                      {"Boundary top/Displacement", "0; 0"},
-                                      {"Boundary right/Displacement", "0; 0"},
-                                      {"Adaptivity/Method", "hpa3"},
+                                      given::clamped({"top", "right"}),
+                                      given::steps("hpa3", "24"),
                                       {"Adaptivity/Indicator", "residual"},
-                                      {"Adaptivity/Maximum steps", "24"},
                                       {"Adaptivity/Maximum unknowns", "8000"}});
   for (const char *const name : {"top", "right"})
     for (unsigned int c = 0; c < 2; ++c)

@@ -28,21 +28,16 @@ const Blocks upright{"0, 0; 2, 0; 2, 1; 0, 1", "4, 2", "bottom", "top"},
 
 Scene<2> scene_of_blocks(const Blocks &upper, const Overrides &joint, const Overrides &others = {})
 {
-  Overrides entries{{"Body lower/Shape", "quadrilateral"},
-                    {"Body lower/Corners", "-0.5, -1; 2.5, -1; 2.5, 0; -0.5, 0"},
-                    {"Body lower/Subdivisions", "6, 2"},
-                    {"Body lower/Material", "other"},
-                    {"Body upper/Shape", "quadrilateral"},
-                    {"Body upper/Corners", upper.corners},
-                    {"Body upper/Subdivisions", upper.cells},
-                    {"Material/Young's modulus", "10"},
-                    {"Material/Poisson's ratio", "0.3"},
-                    {"Material other/Young's modulus", "25"},
-                    {"Material other/Poisson's ratio", "0.2"},
-                    {"Contact joint/Between", "upper." + upper.bottom + ", lower.top"},
-                    {"Boundary lower.bottom/Displacement", "0; 0"},
-                    {"Boundary upper." + upper.top + "/Displacement", "0.03; -0.02"},
-                    {"Error/Bound on distorted cells", "true"}};
+  Overrides entries{
+      given::quadrilateral("Body lower", "-0.5, -1; 2.5, -1; 2.5, 0; -0.5, 0", "6, 2"),
+      {"Body lower/Material", "other"},
+      given::quadrilateral("Body upper", upper.corners, upper.cells),
+      given::elastic("10", "0.3"),
+      given::elastic("25", "0.2", "other"),
+      {"Contact joint/Between", "upper." + upper.bottom + ", lower.top"},
+      {"Boundary lower.bottom/Displacement", "0; 0"},
+      {"Boundary upper." + upper.top + "/Displacement", "0.03; -0.02"},
+      {"Error/Bound on distorted cells", "true"}};
   for (const auto &entry : joint)
     entries.emplace_back("Contact joint/" + entry.first, entry.second);
   entries.insert(entries.end(), others.begin(), others.end());
@@ -222,21 +217,16 @@ TEST(JointBound, HoldsTheKnownEnergies)
   {
     const auto part = [](const std::string &both, const bool second)
     { return second ? both.substr(both.find(';') + 2) : both.substr(0, both.find(';')); };
-    Overrides entries{{"Body lower/Lower corner", part(known.lower, false)},
-                      {"Body lower/Upper corner", part(known.lower, true)},
-                      {"Body lower/Subdivisions", part(known.cells, false)},
+    Overrides entries{given::block("lower", part(known.lower, false), part(known.lower, true),
+                                   part(known.cells, false)),
                       {"Body lower/Material", "other"},
-                      {"Body upper/Lower corner", part(known.upper, false)},
-                      {"Body upper/Upper corner", part(known.upper, true)},
-                      {"Body upper/Subdivisions", part(known.cells, true)},
+                      given::block("upper", part(known.upper, false), part(known.upper, true),
+                                   part(known.cells, true)),
                       {"Material/Plane", known.plane},
-                      {"Material/Young's modulus", known.E_upper},
-                      {"Material/Poisson's ratio", "0.3"},
+                      given::elastic(known.E_upper, "0.3"),
                       {"Material other/Plane", known.plane},
-                      {"Material other/Young's modulus", known.E_lower},
-                      {"Material other/Poisson's ratio", known.nu_lower},
-                      {"Contact joint/Between", "upper.bottom, lower.top"},
-                      {"Contact joint/Law", known.law},
+                      given::elastic(known.E_lower, known.nu_lower, "other"),
+                      given::joint("joint", "upper.bottom, lower.top", known.law),
                       {"Boundary lower.bottom/Displacement", "0; 0"},
                       {"Boundary upper.top/Displacement", known.top},
                       {"Adaptivity/Maximum steps", "12"}};
@@ -280,24 +270,15 @@ TEST(JointBound, IsTheSameInAnyFrame)
 TEST(JointBound, CountsOscillationInBothBodies)
 {
   const std::string g = "0.02*(1 + 0.5*cos(7*x))";
-  const Overrides method{{"Adaptivity/Method", "pu"},
-                         {"Adaptivity/Start degree", "3"},
-                         {"Adaptivity/Maximum steps", "1"},
-                         {"Material/Young's modulus", "10"}};
+  const Overrides method{given::steps("pu", "1", "3"), {"Material/Young's modulus", "10"}};
   Overrides one(method), two(method);
-  for (const auto &entry : Overrides{{"Geometry/Upper corner", "2, 1"},
-                                     {"Geometry/Subdivisions", "4, 2"},
-                                     {"Boundary bottom/Contact", "bilateral"},
-                                     {"Boundary bottom/Friction bound", g},
+  for (const auto &entry : Overrides{given::box("2, 1", "4, 2"),
+                                     given::rough("bottom", "bilateral", g),
                                      {"Boundary top/Displacement", "0.3; -0.02"}})
     one.push_back(entry);
-  for (const auto &entry : Overrides{{"Body upper/Upper corner", "2, 1"},
-                                     {"Body upper/Subdivisions", "4, 2"},
-                                     {"Body lower/Lower corner", "0, -1"},
-                                     {"Body lower/Upper corner", "2, 0"},
-                                     {"Body lower/Subdivisions", "4, 2"},
-                                     {"Contact joint/Between", "upper.bottom, lower.top"},
-                                     {"Contact joint/Law", "bilateral"},
+  for (const auto &entry : Overrides{given::block("upper", "2, 1", "4, 2"),
+                                     given::block("lower", "0, -1", "2, 0", "4, 2"),
+                                     given::joint("joint", "upper.bottom, lower.top", "bilateral"),
                                      {"Contact joint/Friction bound", g},
                                      {"Boundary upper.top/Displacement", "0.3; -0.02"},
                                      {"Boundary lower.bottom/Displacement", "0; 0"}})
@@ -347,14 +328,9 @@ TEST(JointBound, MovesTheSofterBody)
 TEST(JointBound, KeepsPairsApart)
 {
   const std::vector<Step> steps =
-      run(scene_of({{"Body upper/Upper corner", "2, 1"},
-                    {"Body upper/Subdivisions", "4, 2"},
-                    {"Body left/Lower corner", "0, -1"},
-                    {"Body left/Upper corner", "1, 0"},
-                    {"Body left/Subdivisions", "2, 2"},
-                    {"Body right/Lower corner", "1, -1"},
-                    {"Body right/Upper corner", "2, 0"},
-                    {"Body right/Subdivisions", "2, 2"},
+      run(scene_of({given::block("upper", "2, 1", "4, 2"),
+                    given::block("left", "0, -1", "1, 0", "2, 2"),
+                    given::block("right", "1, -1", "2, 0", "2, 2"),
                     {"Contact one/Between", "upper.bottom, left.top"},
                     {"Contact one/Slave", "upper.bottom"},
                     {"Contact one/Friction bound", "0.3"},
@@ -362,8 +338,7 @@ TEST(JointBound, KeepsPairsApart)
                     {"Contact other/Slave", "upper.bottom"},
                     {"Contact other/Friction bound", "0.1"},
                     {"Material/Young's modulus", "10"},
-                    {"Boundary left.bottom/Displacement", "0; 0"},
-                    {"Boundary right.bottom/Displacement", "0; 0"},
+                    given::clamped({"left.bottom", "right.bottom"}),
                     {"Boundary upper.top/Displacement", "0.04; -0.03"},
                     {"Adaptivity/Maximum steps", "4"}}));
   EXPECT_EQ(steps.size(), 4U);
@@ -476,8 +451,7 @@ TEST(JointBound, HoldsKnownEnergiesBesideSprings)
                                     {"Body two/Upper corner", "2, 1"},
                                     {"Boundary one.top/Spring", "100; 100"},
                                     {"Boundary two.right/Shear", "0.01"},
-                                    {"Contact joint/Between", "one.right, two.left"},
-                                    {"Contact joint/Law", "tied"}},
+                                    given::joint("joint", "one.right, two.left", "tied")},
                                    "hpa3",
                                    6,
                                    -.00091824,
@@ -492,18 +466,15 @@ TEST(JointBound, HoldsKnownEnergiesBesideSprings)
                                     {"Material/Young's modulus", "1"},
                                     {"Material m/Where", "x - 1"},
                                     {"Material m/Young's modulus", "25.8884085624"},
-                                    {"Boundary l0.bottom/Displacement", "0; 0"},
-                                    {"Boundary l1.bottom/Displacement", "0; 0"},
+                                    given::clamped({"l0.bottom", "l1.bottom"}),
                                     {"Boundary u0.top/Spring", top},
                                     {"Boundary u0.top/Traction", load},
                                     {"Boundary u1.top/Spring", top},
                                     {"Boundary u1.top/Traction", load},
                                     {"Boundary l1.right/Traction", right},
                                     {"Boundary u1.right/Traction", right},
-                                    {"Contact a/Between", "l0.right, l1.left"},
-                                    {"Contact a/Law", "tied"},
-                                    {"Contact b/Between", "u0.right, u1.left"},
-                                    {"Contact b/Law", "tied"},
+                                    given::joint("a", "l0.right, l1.left", "tied"),
+                                    given::joint("b", "u0.right, u1.left", "tied"),
                                     {"Contact c/Between", "u0.bottom, l0.top"},
                                     {"Contact d/Between", "u1.bottom, l1.top"}},
                                    "hup2",
@@ -564,10 +535,10 @@ TEST(JointBound, NamesWhatDoesNotMatch)
   EXPECT_EQ(why, "");
   ASSERT_EQ(nested.size(), 2U);
   unsigned int n_elements = 0;
-  AdaptiveSolver<2>(
-      scene_of_blocks(other, {}, {{"Adaptivity/Maximum steps", "1"}, {"Error/Bound", "false"}}))
-      .run([&](const StepReport<2> &step)
-           { n_elements = static_cast<unsigned int>(step.size.n_cells); });
+  each_step<2>(
+      scene_of_blocks(other, {}, {{"Adaptivity/Maximum steps", "1"}, {"Error/Bound", "false"}}),
+      [&](const StepReport<2> &step)
+      { n_elements = static_cast<unsigned int>(step.size.n_cells); });
   EXPECT_EQ(n_elements, 28U);
   EXPECT_EQ(nested[0].n_elements, 28U + 4 * 3);
 }
@@ -584,10 +555,11 @@ TEST(JointBound, GoesOnWhereABoxIsCut)
   const auto box = [](const std::string &name, const std::string &lower, const std::string &upper,
                       const std::string &cells)
   {
-    return Overrides{
-        {"Body " + name + "/Lower corner", lower}, {"Body " + name + "/Upper corner", upper},
-        {"Body " + name + "/Subdivisions", cells}, {"Material/Young's modulus", "10"},
-        {"Material/Poisson's ratio", "0.3"},       {"Adaptivity/Maximum steps", "3"}};
+    return Overrides{{"Body " + name + "/Lower corner", lower},
+                     {"Body " + name + "/Upper corner", upper},
+                     {"Body " + name + "/Subdivisions", cells},
+                     given::elastic("10", "0.3"),
+                     {"Adaptivity/Maximum steps", "3"}};
   };
   const auto joined = [](const std::vector<Overrides> &parts)
   {
@@ -607,8 +579,7 @@ TEST(JointBound, GoesOnWhereABoxIsCut)
                   beside = joined({box("a", "0, 0", "1, 2", "2, 4"),
                                    box("b", "1, 0", "2, 2", "1, 4"),
                                    {{"Boundary b.right/Displacement", "0; 0"},
-                                    {"Contact joint/Between", "a.right, b.left"},
-                                    {"Contact joint/Law", "tied"},
+                                    given::joint("joint", "a.right, b.left", "tied"),
                                     {"Boundary load/On", "a.left"},
                                     {"Boundary load/Where", "y - 0.3"},
                                     {"Boundary load/Traction", "1; 0"}}}),
@@ -618,24 +589,19 @@ TEST(JointBound, GoesOnWhereABoxIsCut)
                                    {"Contact foot/Between", "c.bottom, a.top"}}});
   for (const Row &row :
        {Row{"a part of a side", joined({stack, load}), {"b"}},
-        Row{"on a shorter body",
-            joined(
-                {stack, load, {{"Body a/Upper corner", "2, 2"}, {"Body a/Subdivisions", "4, 2"}}}),
-            {"b"}},
+        Row{"on a shorter body", joined({stack, load, {given::block("a", "2, 2", "4, 2")}}), {"b"}},
         Row{"a part of a side that stands", beside, {"b"}},
         Row{"a material in the body below",
             joined({stack,
                     {{"Material hard/Where", "min(x - 0.7, 1 - y)"},
-                     {"Material hard/Young's modulus", "40"},
-                     {"Material hard/Poisson's ratio", "0.3"},
+                     given::elastic("40", "0.3", "hard"),
                      {"Boundary a.top/Pressure", "1"}}}),
             {"a"}},
         Row{"both",
             joined({stack,
                     load,
                     {{"Material hard/Where", "min(x - 2.3, 1 - y)"},
-                     {"Material hard/Young's modulus", "40"},
-                     {"Material hard/Poisson's ratio", "0.3"}}}),
+                     given::elastic("40", "0.3", "hard")}}),
             {"b", "a"}},
         Row{"a foot in the middle of a pile", third, {"b"}},
         Row{"and where no other line matches",

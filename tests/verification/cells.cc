@@ -59,9 +59,7 @@ void make_cell(const Vertices &vertices, Triangulation<2> &mesh)
 
 // ---------------------------------------------------------------- geometry
 
-class CellMaps : public ::testing::TestWithParam<NamedCell>
-{
-};
+using CellMaps = ::testing::TestWithParam<NamedCell>;
 
 TEST_P(CellMaps, AreDealIIsBilinearMaps)
 {
@@ -222,8 +220,7 @@ TEST(Evaluate, IsOneProductPerComponent)
 
 Scene<2> elastic_scene(const bool body_force)
 {
-  return scene_of({{"Material/Young's modulus", "3"},
-                   {"Material/Poisson's ratio", "0.35"},
+  return scene_of({given::elastic("3", "0.35"),
                    {"Material/Plane", "stress"},
                    {"Body force/Expression", body_force ? "0; -1" : ""},
                    {"Boundary top/Displacement", "0; 0"}});
@@ -589,9 +586,7 @@ void expect_same(const std::string &part, const std::vector<double> &computed,
 /** Two materials, every kind of condition; friction of degree 2 along the edge. */
 Scene<2> loaded_scene(const std::string &corners)
 {
-  Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                             {"Geometry/Corners", corners},
-                             {"Geometry/Subdivisions", "3, 2"},
+  Scene<2> scene = scene_of({given::quadrilateral("Geometry", corners, "3, 2"),
                              {"Material/Young's modulus", "10"},
                              {"Material/Plane", "stress"},
                              {"Body force/Expression", "x*y; 1 - 2*x"},
@@ -599,8 +594,7 @@ Scene<2> loaded_scene(const std::string &corners)
                              {"Boundary left/Traction", "0.5*y; 0"},
                              {"Boundary left/Displacement", "free; 0"},
                              {"Boundary right/Traction", "1 + y; -x"},
-                             {"Boundary bottom/Contact", "bilateral"},
-                             {"Boundary bottom/Friction bound", "1 + x^2"}});
+                             given::rough("bottom", "bilateral", "1 + x^2")});
   scene.materials.push_back({3., 0.1, PlaneModel::strain});
   return scene;
 }
@@ -649,8 +643,7 @@ TEST(ResidualIndicator, IsThatOfFEValuesOnDistortedCells)
 TEST(ResidualIndicator, IsScaledByTheCoercivityOfTheMaterial)
 {
   for (const std::string plane : {"stress", "strain"})
-    AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Material/Young's modulus", "12"},
-                                                 {"Material/Poisson's ratio", "0.25"},
+    AdaptiveSolver<2>(shipped_scene("han-6-12", {given::elastic("12", "0.25"),
                                                  {"Material/Plane", plane},
                                                  {"Adaptivity/Maximum steps", "2"}}))
         .run(

@@ -71,9 +71,7 @@ struct Run
   unsigned int half = 3; ///< steps before it is broken off
 };
 
-class BrokenOff : public ::testing::TestWithParam<Run>
-{
-};
+using BrokenOff = ::testing::TestWithParam<Run>;
 
 TEST_P(BrokenOff, GoesOnToTheLastBit)
 {
@@ -131,18 +129,13 @@ INSTANTIATE_TEST_SUITE_P(
         // Cells that are congruent up to round-off: which one stands for its class is history.
         Run{"uneven",
             "han-6-12",
-            {{"Geometry/Lower corner", "0.1, 0.3"},
-             {"Geometry/Upper corner", "3.4, 2.9"},
-             {"Geometry/Subdivisions", "3, 3"},
-             {"Adaptivity/Method", "hap3"}}},
+            {given::box("0.1, 0.3", "3.4, 2.9", "3, 3"), {"Adaptivity/Method", "hap3"}}},
         Run{"skew",
             "han-6-12",
-            {{"Geometry/Shape", "quadrilateral"},
-             {"Geometry/Corners", "0, 0; 4.1, 0.3; 3.7, 4; -0.5, 3.3"},
+            {given::quadrilateral("Geometry", "0, 0; 4.1, 0.3; 3.7, 4; -0.5, 3.3"),
              {"Geometry/Lower corner", "0, 0"},
              {"Geometry/Upper corner", "1, 1"},
-             {"Geometry/Graded towards", "0, 0"},
-             {"Geometry/Grading levels", "2"}}}),
+             given::graded("Geometry", "0, 0", "2")}}),
     [](const auto &info) { return info.param.name; });
 
 /** A scene without friction has no multiplier, and one that is refined by p alone has one mesh. */
@@ -166,17 +159,10 @@ TEST(RunState, KeepsWhatThereIs)
 template <class Action>
 std::string refusal(const Action &action)
 {
-  try
-  {
-    action();
-  }
-  catch (const InputError &error)
-  {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("begin a new one"), std::string::npos);
-    return error.what();
-  }
-  return "";
+  const std::string line = failure_of<InputError>(action);
+  EXPECT_FALSE(says(line, "\n"));
+  EXPECT_TRUE(line.empty() || says(line, "begin a new one")) << line;
+  return line;
 }
 
 std::string refusal_to_go_on(const RunState<2> &state, const Overrides &overrides)
@@ -300,8 +286,7 @@ Scene<2> scene_with_claims(const unsigned int n)
                    {"Boundary low.bottom/Displacement", "0; 0"},
                    {"Boundary up.top/Traction", "0.001; -0.01"},
                    {"Boundary up.right/Displacement", "0; free"},
-                   {"Contact joint/Between", "up.bottom, low.top"},
-                   {"Contact joint/Law", "bilateral"},
+                   given::joint("joint", "up.bottom, low.top", "bilateral"),
                    {"Contact joint/Friction bound", "0.002"},
                    {"Probe tip/On", "low.bottom"},
                    {"Adaptivity/Tolerance", "0"},

@@ -99,14 +99,12 @@ TEST(FrictionRule, GivesUpOnNoise)
 // ---------------------------------------------------------------- one rule for all integrals
 
 /** A block that is pushed along a plane; g is to be added. */
-const Overrides pushed = {{"Geometry/Upper corner", "3, 1"},
-                          {"Geometry/Subdivisions", "3, 1"},
+const Overrides pushed = {given::box("3, 1", "3, 1"),
                           {"Boundary left/Traction", "1.5; -0.2*y"},
                           {"Boundary top/Traction", "0.4; -0.1*x"},
                           {"Boundary right/Displacement", "0; 0"},
                           {"Boundary bottom/Contact", "bilateral"},
-                          {"Adaptivity/Method", "hpa3"},
-                          {"Adaptivity/Maximum steps", "6"},
+                          given::steps("hpa3", "6"),
                           {"Material/Young's modulus", "1"},
                           {"Units/Length", "1"},
                           {"Units/Stress", "1"}};
@@ -123,9 +121,7 @@ struct Bound
   double integral;
 };
 
-class AnyBound : public ::testing::TestWithParam<Bound>
-{
-};
+using AnyBound = ::testing::TestWithParam<Bound>;
 
 /** b(u, z) of the Lagrangian is z' B u where L = -a/2 holds; J integrates g itself. */
 TEST_P(AnyBound, IsIntegratedInTheEnergies)
@@ -168,9 +164,8 @@ TEST(Contact, APolynomialBoundTakesOnePointMoreThanTheDegreeOnEachEdge)
 /** int |u_t| for u_t = c (x - a) (x - b) on the edge (0,1), whose zeros lie on a sample, between two, and beside an end. */
 TEST(Contact, SeesWhereTheDisplacementChangesItsSign)
 {
-  const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "3"}});
+  const Scene<2> scene =
+      scene_of({{"Boundary top/Displacement", "0; 0"}, given::rough("bottom", "bilateral", "3")});
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   for (const auto &[a, b] : std::vector<std::pair<double, double>>{
@@ -226,9 +221,8 @@ TEST(CoarseBound, IsWarnedOfUntilItIsResolved)
 /** The numbers of the warning are those of the edge: one edge, p = 3, points at 1/2 -+ 1/sqrt(12). */
 TEST(CoarseBound, IsNamedWithItsSumAndItsIntegral)
 {
-  const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "x^4"}});
+  const Scene<2> scene =
+      scene_of({{"Boundary top/Displacement", "0; 0"}, given::rough("bottom", "bilateral", "x^4")});
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const Laboratory discrete(scene, mesh, Degrees(1, 3));
@@ -247,33 +241,12 @@ TEST(CoarseBound, IsNamedWithItsSumAndItsIntegral)
 /** A strip 4 x 1 without supports, pushed along the top by @p force. */
 Scene<2> free_strip(const std::string &bound, const double force, const Overrides &more = {})
 {
-  return scene_of(with({{"Geometry/Upper corner", "4, 1"},
-                        {"Geometry/Subdivisions", "4, 1"},
+  return scene_of(with({given::box("4, 1", "4, 1"),
                         {"Material/Young's modulus", "1"},
                         {"Boundary left/Traction", in_digits(force) + "; 0"},
-                        {"Boundary bottom/Contact", "bilateral"},
-                        {"Boundary bottom/Friction bound", bound},
-                        {"Adaptivity/Method", "hpa3"},
-                        {"Adaptivity/Maximum steps", "3"}},
+                        given::rough("bottom", "bilateral", bound),
+                        given::steps("hpa3", "3")},
                        more));
-}
-
-std::string failure_of(const Scene<2> &scene)
-{
-  try
-  {
-    AdaptiveSolver<2>(scene).run(
-        [](const StepReport<2> &step)
-        {
-          EXPECT_TRUE(std::isfinite(step.energies.energy));
-          EXPECT_TRUE(std::isfinite(step.solution().u.l2_norm()));
-        });
-  }
-  catch (const NumericalFailure &failure)
-  {
-    return failure.what();
-  }
-  return {};
 }
 
 /** int g = 5.4, of which the Gauss points of the first mesh see 5. */
@@ -298,9 +271,10 @@ TEST(FreeBody, BalancesItsLoadsByABump)
   for (const double a : {0.93, 1.31, 2., 2.49})
   {
     double resultant = 0;
-    AdaptiveSolver<2>(free_strip("if(abs(x - " + in_digits(a) + ") < 0.05, 10, 0)", 0.7,
-                                 {{"Geometry/Subdivisions", "80, 10"}}))
-        .run([&](const StepReport<2> &step) { resultant = step.contact.at(0).friction_resultant; });
+    each_step<2>(free_strip("if(abs(x - " + in_digits(a) + ") < 0.05, 10, 0)", 0.7,
+                            {{"Geometry/Subdivisions", "80, 10"}}),
+                 [&](const StepReport<2> &step)
+                 { resultant = step.contact.at(0).friction_resultant; });
     EXPECT_NEAR(resultant, -0.7, 1e-9) << a;
   }
 }
@@ -323,10 +297,7 @@ TEST(FreeBody, ABoundThatNoSampleSeesIsAFailureWithItsReason)
           });
   EXPECT_TRUE(mentions(warnings, "its place is not unique"));
   // found with a finer mesh
-  EXPECT_EQ(
-      failure_of(free_strip(
-          bump, 0.7, {{"Geometry/Graded towards", "2, 0"}, {"Geometry/Grading levels", "13"}})),
-      "");
+  EXPECT_EQ(failure_of(free_strip(bump, 0.7, {given::graded("Geometry", "2, 0", "13")})), "");
 }
 
 // ---------------------------------------------------------------- jumps inside an edge
@@ -360,9 +331,8 @@ TEST(Jump, IsWarnedOfUnlessAVertexLiesThere)
   const auto warnings_of = [](const std::string &bound, const std::string &method)
   {
     std::vector<std::string> result;
-    AdaptiveSolver<2>(
-        pushed_with(bound, {{"Adaptivity/Method", method}, {"Adaptivity/Maximum steps", "2"}}))
-        .run([&](const StepReport<2> &step) { result = texts(step.warnings); });
+    each_step<2>(pushed_with(bound, {given::steps(method, "2")}),
+                 [&](const StepReport<2> &step) { result = texts(step.warnings); });
     return result;
   };
   const std::string words = "Friction bound jumps inside 1 edge, by up to 0.1";
@@ -422,11 +392,9 @@ private:
 /** Ten edges of length 1 with two Gauss points each. */
 Scene<2> strip(const std::string &bound = "1")
 {
-  return scene_of({{"Geometry/Upper corner", "10, 1"},
-                   {"Geometry/Subdivisions", "10, 1"},
+  return scene_of({given::box("10, 1", "10, 1"),
                    {"Boundary top/Displacement", "0; 0"},
-                   {"Boundary bottom/Contact", "bilateral"},
-                   {"Boundary bottom/Friction bound", bound}});
+                   given::rough("bottom", "bilateral", bound)});
 }
 
 TEST(Transitions, LieBetweenGaussPointsOfDifferentState)
@@ -484,14 +452,11 @@ Scene<2> block_in_a_corner(const Overrides &more = {})
 {
   return scene_of(with({{"Geometry/Subdivisions", "4, 4"},
                         {"Material/Young's modulus", "1"},
-                        {"Boundary bottom/Contact", "bilateral"},
-                        {"Boundary bottom/Friction bound", "0.3"},
-                        {"Boundary left/Contact", "bilateral"},
-                        {"Boundary left/Friction bound", "0.3"},
+                        given::rough("bottom", "bilateral", "0.3"),
+                        given::rough("left", "bilateral", "0.3"),
                         {"Boundary top/Traction", "0.3; -1"},
                         {"Boundary right/Traction", "0.5; 0"},
-                        {"Adaptivity/Method", "hpa3"},
-                        {"Adaptivity/Maximum steps", "5"}},
+                        given::steps("hpa3", "5")},
                        more));
 }
 
@@ -564,13 +529,10 @@ TEST(TwoContactBoundaries, TablesRunAlongTheTangentOfEach)
 /** A displacement with sigma_yy = x - 1 on the bottom of a block of length 4: it pulls beyond x = 1. */
 TEST(ContactState, ResultantsAreIntegrals)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "4, 1"},
-                                   {"Geometry/Subdivisions", "8, 1"},
-                                   {"Material/Young's modulus", "1"},
-                                   {"Material/Poisson's ratio", "0"},
+  const Scene<2> scene = scene_of({given::box("4, 1", "8, 1"),
+                                   given::elastic("1", "0"),
                                    {"Boundary top/Displacement", "0; 0"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "if(x < 3, 0.5, 0)"}});
+                                   given::rough("bottom", "bilateral", "if(x < 3, 0.5, 0)")});
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
   const Laboratory discrete(scene, mesh, Degrees(mesh.n_active_cells(), 3));
@@ -629,18 +591,14 @@ struct LoadedFoot
   Scene<2> scene(const double slip, const double bound, const Overrides &more = {}) const
   {
     return scene_of(with(
-        {{"Geometry/Upper corner", "2, 1"},
-         {"Geometry/Subdivisions", "2, 1"},
-         {"Material/Young's modulus", "1"},
-         {"Material/Poisson's ratio", "0"},
+        {given::box("2, 1", "2, 1"),
+         given::elastic("1", "0"),
          {"Boundary top/Displacement", in_digits(slip + 2 * tau) + "; " + in_digits(-pressure)},
          {"Boundary left/Traction", "0; " + in_digits(-tau)},
          {"Boundary right/Traction", "0; " + in_digits(tau)},
-         {"Boundary bottom/Contact", "bilateral"},
-         {"Boundary bottom/Friction bound", in_digits(bound)},
+         given::rough("bottom", "bilateral", in_digits(bound)),
          {"Boundary bottom/Traction", in_digits(along) + "; " + in_digits(up)},
-         {"Adaptivity/Method", "hup3"},
-         {"Adaptivity/Maximum steps", "1"}},
+         given::steps("hup3", "1")},
         more));
   }
 };

@@ -17,15 +17,11 @@ const Tensor<1, 2> d({0.6, -0.8});
 /** A skew block that is pressed down: no loads but those of contact on its bottom. */
 Overrides pressed()
 {
-  return {{"Geometry/Shape", "quadrilateral"},
-          {"Geometry/Corners", "0, 0; 2, 0.3; 2.2, 1.3; 0.2, 1"},
-          {"Geometry/Subdivisions", "3, 2"},
-          {"Material/Young's modulus", "10"},
-          {"Material/Poisson's ratio", "0.3"},
+  return {given::quadrilateral("Geometry", "0, 0; 2, 0.3; 2.2, 1.3; 0.2, 1", "3, 2"),
+          given::elastic("10", "0.3"),
           {"Boundary top/Displacement", "0.03; -0.1 - 0.05*x"},
           {"Boundary bottom/Contact direction", "3; -4"},
-          {"Adaptivity/Method", "hup3"},
-          {"Adaptivity/Maximum steps", "2"}};
+          given::steps("hup3", "2")};
 }
 
 struct ContactNode
@@ -99,8 +95,7 @@ TEST(ContactDirection, BilateralContactHoldsItAlone)
 TEST(ContactDirection, FrictionIsAcrossIt)
 {
   double along = 0, across = 0; // of all forces
-  for (const ContactNode &node : solved({{"Boundary bottom/Contact", "tangential"},
-                                         {"Boundary bottom/Friction bound", "0.001"}}))
+  for (const ContactNode &node : solved({given::rough("bottom", "tangential", "0.001")}))
   {
     along += std::abs(node.force * d);
     across -= cross_product_2d(d) * node.force;
@@ -115,15 +110,7 @@ std::string refusal(const std::function<void(Scene<2> &)> &spoil)
   entries.emplace_back("Boundary bottom/Contact", "bilateral");
   Scene<2> scene = scene_of(entries);
   spoil(scene);
-  try
-  {
-    check(scene);
-  }
-  catch (const InputError &error)
-  {
-    return error.what();
-  }
-  return {};
+  return failure_of<InputError>([&] { check(scene); });
 }
 
 TEST(ContactDirection, OfCodeIsAUnitVectorOutOfTheBody)

@@ -42,12 +42,9 @@ public:
   Manufactured(const std::string &method, const unsigned int degree, const unsigned int steps,
                const Overrides &geometry)
   {
-    Overrides entries = {{"Material/Young's modulus", "2"},
-                         {"Material/Poisson's ratio", "0.3"},
+    Overrides entries = {given::elastic("2", "0.3"),
                          {"Material/Plane", "strain"},
-                         {"Adaptivity/Method", method},
-                         {"Adaptivity/Start degree", std::to_string(degree)},
-                         {"Adaptivity/Maximum steps", std::to_string(steps)}};
+                         given::steps(method, std::to_string(steps), std::to_string(degree))};
     entries.insert(entries.end(), geometry.begin(), geometry.end());
     for (const std::string side : {"left", "top", "bottom"})
       entries.emplace_back("Boundary " + side + "/Displacement", "sin(2*x + y); cos(x - 2*y)");
@@ -124,9 +121,8 @@ private:
 
 const Overrides box = {{"Geometry/Subdivisions", "2, 2"}};
 /** The right edge is upright, as the traction assumes. */
-const Overrides distorted = {{"Geometry/Shape", "quadrilateral"},
-                             {"Geometry/Corners", "0.2, 0; 1, -0.1; 1, 1.2; 0, 0.9"},
-                             {"Geometry/Subdivisions", "2, 2"}};
+const Overrides distorted = {
+    given::quadrilateral("Geometry", "0.2, 0; 1, -0.1; 1, 1.2; 0, 0.9", "2, 2")};
 
 /** Under uniform bisection the error falls like h^p, that is N^(-p/2), and so does eta. */
 TEST(Manufactured, ErrorOfUniformBisectionHasTheOptimalOrder)
@@ -177,12 +173,10 @@ TEST(Manufactured, IndicatorIsReliableAndEfficient)
 
 TEST(Energies, ResolveTheSignChangesOfTheSlip)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "3, 1"},
-                                   {"Geometry/Subdivisions", "3, 1"},
+  const Scene<2> scene = scene_of({given::box("3, 1", "3, 1"),
                                    {"Body force/Expression", "1; x"},
                                    {"Boundary top/Displacement", "0; 0"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "1 + x"}});
+                                   given::rough("bottom", "bilateral", "1 + x")});
   for (const unsigned int seed : {1u, 2u, 3u})
   {
     const RandomMesh mesh(scene, seed, 1);
@@ -282,17 +276,14 @@ std::ostream &operator<<(std::ostream &out, const ExpectedRate &rate)
   return out << rate.example << ", " << rate.method;
 }
 
-class MethodRates : public ::testing::TestWithParam<ExpectedRate>
-{
-};
+using MethodRates = ::testing::TestWithParam<ExpectedRate>;
 
 TEST_P(MethodRates, AreThoseOfTheThesisOrBetter)
 {
   const History history =
       run(GetParam().example,
-          {{"Adaptivity/Method", GetParam().method},
-           {"Adaptivity/Maximum unknowns", std::to_string(GetParam().maximum_unknowns)},
-           {"Adaptivity/Maximum steps", GetParam().method == "pu" ? "11" : "100"}});
+          {given::steps(GetParam().method, GetParam().method == "pu" ? "11" : "100"),
+           {"Adaptivity/Maximum unknowns", std::to_string(GetParam().maximum_unknowns)}});
   EXPECT_GE(algebraic_rate(history), GetParam().at_least);
 }
 

@@ -193,15 +193,14 @@ TEST(CoulombFriction, HoldsAWedgeUpToItsPush)
 TEST(CoulombFriction, LeavesTheFloorOfTheIndicatorAtRoundOff)
 {
   for (const std::string contact : {"unilateral", "bilateral"})
-    AdaptiveSolver<2>(shipped_scene("ssnv128", {{"Boundary bottom/Contact", contact},
-                                                {"Adaptivity/Maximum steps", "1"}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              const double floor = round_off_of_estimate(step.field);
-              EXPECT_GT(floor, 0.) << contact;
-              EXPECT_LT(floor, 1e-10 * step.estimate.total()) << contact;
-            });
+    each_step<2>(shipped_scene("ssnv128", {{"Boundary bottom/Contact", contact},
+                                           {"Adaptivity/Maximum steps", "1"}}),
+                 [&](const StepReport<2> &step)
+                 {
+                   const double floor = round_off_of_estimate(step.field);
+                   EXPECT_GT(floor, 0.) << contact;
+                   EXPECT_LT(floor, 1e-10 * step.estimate.total()) << contact;
+                 });
 }
 
 // ---------------------------------------------------------------- uniform states

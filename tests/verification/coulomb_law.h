@@ -68,19 +68,6 @@ inline Outcome run(const Scene<2> &scene)
   return outcome;
 }
 
-inline std::string failure_of(const Scene<2> &scene)
-{
-  try
-  {
-    AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {});
-    return "";
-  }
-  catch (const NumericalFailure &failure)
-  {
-    return failure.what();
-  }
-}
-
 /** The displacement of a field on the left, right and top sides of a body. */
 inline void prescribe(Scene<2> &scene, const std::function<Tensor<1, 2>(const Point<2> &)> &u)
 {

@@ -307,9 +307,8 @@ TEST(CoulombProofs, BodiesWithoutContactForcesComeToRest)
 {
   const std::vector<Overrides> scenes = {
       // A floor that stands too high: the body rises.
-      {{"Boundary bottom/Contact", "unilateral"},
+      {given::rough("bottom", "unilateral", "0.1*(1 + x^2)"),
        {"Boundary bottom/Gap", "-0.01"},
-       {"Boundary bottom/Friction bound", "0.1*(1 + x^2)"},
        {"Geometry/Corners",
         "0, 0; 0.001, 0.9999995; -0.9985995, 1.4009993; -0.9995995, 0.4009998"}},
       // Pinched, and not strained along the plane.
@@ -386,14 +385,12 @@ TEST(CoulombProofs, SaysWhatToTryWhereItFails)
     EXPECT_NE(failure.find(words), std::string::npos) << words << " in: " << failure;
   EXPECT_EQ(failure.find("support"), std::string::npos);
   // Where contact alone holds the body that may be why: bilateral contact that pulls does not rub.
-  const std::string loose =
-      failure_of(scene_of({{"Geometry/Shape", "quadrilateral"},
-                           {"Geometry/Corners", "0, 0; 1, 0; 1.4, 0.5; 0.4, 0.5"},
-                           {"Geometry/Subdivisions", "2, 1"},
-                           {"Material/Poisson's ratio", "0"},
-                           {"Boundary bottom/Contact", "bilateral"},
-                           {"Boundary bottom/Friction coefficient", "0.3"},
-                           {"Boundary top/Traction", "10*(x - 0.5); 0"}}));
+  const std::string loose = failure_of(
+      scene_of({given::quadrilateral("Geometry", "0, 0; 1, 0; 1.4, 0.5; 0.4, 0.5", "2, 1"),
+                {"Material/Poisson's ratio", "0"},
+                {"Boundary bottom/Contact", "bilateral"},
+                {"Boundary bottom/Friction coefficient", "0.3"},
+                {"Boundary top/Traction", "10*(x - 0.5); 0"}}));
   EXPECT_NE(loose.find("set Solver/Coulomb solver = fixed point"), std::string::npos) << loose;
   EXPECT_NE(loose.find("add a support"), std::string::npos) << loose;
 }

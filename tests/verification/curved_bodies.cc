@@ -32,23 +32,13 @@ using namespace verification;
 /** A ring from 1 to 1.5 in one from 1.5 to 2, with seven arcs on five. */
 Overrides rings(const Overrides &others)
 {
-  return with({{"Body in/Shape", "ring sector"},
-               {"Body in/Radii", "1, 1.5"},
-               {"Body in/Angles", "0, 360"},
-               {"Body in/Subdivisions", "1, 7"},
-               {"Body out/Shape", "ring sector"},
-               {"Body out/Radii", "1.5, 2"},
-               {"Body out/Angles", "0, 360"},
-               {"Body out/Subdivisions", "1, 5"},
+  return with({given::ring("Body in", "1, 1.5", "0, 360", "1, 7"),
+               given::ring("Body out", "1.5, 2", "0, 360", "1, 5"),
                {"Body out/Material", "hard"},
-               {"Material/Young's modulus", "10"},
-               {"Material/Poisson's ratio", "0.3"},
-               {"Material hard/Young's modulus", "30"},
-               {"Material hard/Poisson's ratio", "0.2"},
+               given::elastic("10", "0.3"),
+               given::elastic("30", "0.2", "hard"),
                {"Contact fit/Between", "in.outer, out.inner"},
-               {"Adaptivity/Method", "pu"},
-               {"Adaptivity/Start degree", "10"},
-               {"Adaptivity/Maximum steps", "1"}},
+               given::steps("pu", "1", "10")},
               others);
 }
 
@@ -116,26 +106,18 @@ struct Approach
 
 std::vector<Approach> approaches()
 {
-  const Overrides roller = {{"Body a/Shape", "ring sector"},
-                            {"Body a/Centre", "0, 30"},
-                            {"Body a/Radii", "1, 10"},
-                            {"Body a/Angles", "180, 360"},
-                            {"Body a/Subdivisions", "2, 4"}},
+  const Overrides roller = {given::ring("Body a", "1, 10", "180, 360", "2, 4"),
+                            {"Body a/Centre", "0, 30"}},
                   box = {{"Body b/Lower corner", "-20, 0"},
                          {"Body b/Upper corner", "20, 19"},
                          {"Boundary b.bottom/Displacement", "0; 0"},
                          {"Contact c/Between", "a.outer, b.top"}},
-                  wedge = {{"Body a/Shape", "quadrilateral"},
-                           {"Body a/Corners", "-5, 21; 5, 20; 5, 30; -5, 30"},
-                           {"Body a/Subdivisions", "3, 2"},
+                  wedge = {given::quadrilateral("Body a", "-5, 21; 5, 20; 5, 30; -5, 30", "3, 2"),
                            {"Contact c/Between", "a.bottom, b.top"}},
                   bore = {{"Body a/Angles", "0, 360"},
                           {"Body a/Centre", "0, 0"},
                           {"Body a/Subdivisions", "1, 8"},
-                          {"Body b/Shape", "ring sector"},
-                          {"Body b/Radii", "11, 15"},
-                          {"Body b/Angles", "0, 360"},
-                          {"Body b/Subdivisions", "1, 9"},
+                          given::ring("Body b", "11, 15", "0, 360", "1, 9"),
                           {"Boundary b.outer/Displacement", "0; 0"},
                           {"Contact c/Between", "a.outer, b.inner"}};
   const std::string inner = "Boundary a.inner/Displacement";
@@ -188,12 +170,13 @@ TEST(CurvedBodies, AreMovedBeforeTheyTouch)
 /** hpa3 up to p = 12 comes to the end of double precision, on curves, in pairs and of revolution, and ends there. */
 TEST(CurvedBodies, EndWhereRoundOffRules)
 {
-  const Overrides hp = {{"Adaptivity/Method", "hpa3"},       {"Adaptivity/Start degree", "3"},
-                        {"Adaptivity/Maximum degree", "12"}, {"Adaptivity/hpa3 threshold", "0.2"},
-                        {"Adaptivity/Maximum steps", "18"},  {"Adaptivity/Tolerance", "0"}};
-  const Overrides tube = {{"Geometry/Shape", "ring sector"},  {"Geometry/Radii", "1, 2"},
-                          {"Geometry/Angles", "0, 90"},       {"Geometry/Subdivisions", "1, 2"},
-                          {"Boundary inner/Pressure", "1"},   {"Material/Poisson's ratio", "0.3"},
+  const Overrides hp = {given::steps("hpa3", "18", "3"),
+                        {"Adaptivity/Maximum degree", "12"},
+                        {"Adaptivity/hpa3 threshold", "0.2"},
+                        {"Adaptivity/Tolerance", "0"}};
+  const Overrides tube = {given::ring("Geometry", "1, 2", "0, 90", "1, 2"),
+                          {"Boundary inner/Pressure", "1"},
+                          {"Material/Poisson's ratio", "0.3"},
                           {"Boundary start/Symmetry", "true"}},
                   symmetric = {{"Boundary end/Symmetry", "true"}},
                   turned = {{"Material/Plane", "axisymmetric"}};
@@ -347,25 +330,20 @@ Overrides rings_of_files(const std::string &inner, const std::string &outer,
                          const std::string &inner_curve, const std::string &outer_curve,
                          const std::string &law)
 {
-  Overrides entries{{"Material/Young's modulus", "10"},
-                    {"Material/Poisson's ratio", "0.3"},
+  Overrides entries{given::elastic("10", "0.3"),
                     {"Body out/Material", "hard"},
-                    {"Material hard/Young's modulus", "30"},
-                    {"Material hard/Poisson's ratio", "0.2"},
+                    given::elastic("30", "0.2", "hard"),
                     {"Body in/File", inner},
                     {"Body in/Surfaces", "core"},
                     {"Body out/File", outer},
                     {"Body out/Surfaces", "shell"},
-                    {"Contact fit/Between", "in.joint, out.joint"},
-                    {"Contact fit/Law", law},
+                    given::joint("fit", "in.joint, out.joint", law),
                     {"Boundary in.hole/Pressure", "1"},
                     {"Boundary in.hole/Curve", inner_curve},
                     {"Boundary in.joint/Curve", inner_curve},
                     {"Boundary out.joint/Curve", outer_curve},
                     {"Boundary out.rim/Curve", outer_curve},
-                    {"Adaptivity/Method", "pu"},
-                    {"Adaptivity/Start degree", "8"},
-                    {"Adaptivity/Maximum steps", "1"}};
+                    given::steps("pu", "1", "8")};
   for (const std::string body : {"in", "out"})
   {
     entries.emplace_back("Body " + body + "/Shape", "file");
@@ -585,15 +563,10 @@ TEST(CurvedBodies, PullASleeveInASleeve)
     const double K = law == "stick" ? -W / way : -0.3 * p * 1.5, slip = W + K * way;
     ASSERT_LE(std::abs(K), 0.3 * p * 1.5 + 1e-15);
     Overrides entries{
-        {"Body in/Lower corner", "1, 0"},
-        {"Body in/Upper corner", "1.5, 1"},
-        {"Body in/Subdivisions", "1, 2"},
-        {"Body out/Lower corner", "1.5, 0"},
-        {"Body out/Upper corner", "2, 1"},
-        {"Body out/Subdivisions", "1, 3"},
+        given::block("in", "1, 0", "1.5, 1", "1, 2"),
+        given::block("out", "1.5, 0", "2, 1", "1, 3"),
         {"Body out/Material", "hard"},
-        {"Material/Young's modulus", "10"},
-        {"Material/Poisson's ratio", "0"},
+        given::elastic("10", "0"),
         {"Material/Plane", "axisymmetric"},
         {"Material hard/Young's modulus", "30"},
         {"Contact fit/Between", "in.right, out.left"},
@@ -601,9 +574,7 @@ TEST(CurvedBodies, PullASleeveInASleeve)
         {"Contact fit/Friction coefficient", "0.3"},
         {"Boundary in.left/Displacement", "free; " + in_digits(W) + (steps ? "*t" : "")},
         {"Boundary out.right/Displacement", "free; 0"},
-        {"Adaptivity/Method", "pu"},
-        {"Adaptivity/Start degree", "10"},
-        {"Adaptivity/Maximum steps", "1"}};
+        given::steps("pu", "1", "10")};
     for (const std::string body : {"in", "out"})
     {
       entries.emplace_back("Boundary " + body + ".top/Traction", in_digits(K) + "/x; 0");
@@ -686,13 +657,8 @@ TEST(CurvedBodies, TakeTheEdgesThatFaceEachOther)
   const auto disc_on =
       [](const std::string &left, const std::string &right, const Overrides &others)
   {
-    return scene_of(with({{"Body disc/Shape", "half disc"},
-                          {"Body disc/Centre", "0, 1"},
-                          {"Body disc/Angle", "180"},
-                          {"Body disc/Radius", "1"},
-                          {"Body block/Lower corner", left + ", -1"},
-                          {"Body block/Upper corner", right + ", 0"},
-                          {"Body block/Subdivisions", "8, 2"},
+    return scene_of(with({given::half_disc("Body disc", "0, 1", "1", "180"),
+                          given::block("block", left + ", -1", right + ", 0", "8, 2"),
                           {"Contact line/Between", "disc.arc, block.top"},
                           {"Boundary block.bottom/Displacement", "0; 0"},
                           {"Boundary disc.flat/Displacement", "0; -0.01"}},
@@ -851,22 +817,15 @@ TEST(CurvedBodies, AreTheSameInAnyFrame)
     { return in_digits(c * sign * x - s * y) + between + in_digits(s * sign * x + c * y); };
     const double from = mirrored ? 200 : 210;
     return Overrides{
-        {"Body disc/Shape", "half disc"},
-        {"Body disc/Centre", place(0, 1, ", ")},
-        {"Body disc/Angle", in_digits(180 + degrees)},
-        {"Body disc/Radius", "1"},
-        {"Body cup/Shape", "ring sector"},
+        given::half_disc("Body disc", place(0, 1, ", "), "1", in_digits(180 + degrees)),
+        given::ring("Body cup", "1.3, 2",
+                    in_digits(from + degrees) + ", " + in_digits(from + 130 + degrees), "1, 5"),
         {"Body cup/Centre", place(0.1, 1.2, ", ")},
-        {"Body cup/Radii", "1.3, 2"},
-        {"Body cup/Angles", in_digits(from + degrees) + ", " + in_digits(from + 130 + degrees)},
-        {"Body cup/Subdivisions", "1, 5"},
         {"Contact seat/Between", "disc.arc, cup.inner"},
         {"Contact seat/Friction coefficient", "0.2"},
         {"Boundary cup.outer/Displacement", "0; 0"},
         {"Boundary disc.flat/Displacement", place(0.03, -0.12, "; ")},
-        {"Adaptivity/Method", "pu"},
-        {"Adaptivity/Start degree", "6"},
-        {"Adaptivity/Maximum steps", "1"}};
+        given::steps("pu", "1", "6")};
   };
   std::vector<std::array<double, 3>> found;
   for (const auto &[degrees, mirrored] : std::vector<std::pair<double, bool>>{
@@ -887,17 +846,10 @@ TEST(CurvedBodies, AreTheSameInAnyFrame)
 /** Rows of the master by many points: what the rule of the operator leaves out is small beside the error. */
 TEST(CurvedBodies, IntegrateAcrossBothCurves)
 {
-  const Scene<2> scene = scene_of({{"Body disc/Shape", "half disc"},
-                                   {"Body disc/Centre", "0, 1"},
-                                   {"Body disc/Angle", "180"},
-                                   {"Body disc/Radius", "1"},
-                                   {"Body cup/Shape", "ring sector"},
+  const Scene<2> scene = scene_of({given::half_disc("Body disc", "0, 1", "1", "180"),
+                                   given::ring("Body cup", "1.3, 2", "210, 330", "1, 5"),
                                    {"Body cup/Centre", "0.1, 1.2"},
-                                   {"Body cup/Radii", "1.3, 2"},
-                                   {"Body cup/Angles", "210, 330"},
-                                   {"Body cup/Subdivisions", "1, 5"},
-                                   {"Contact seat/Between", "disc.arc, cup.inner"},
-                                   {"Contact seat/Law", "unilateral"},
+                                   given::joint("seat", "disc.arc, cup.inner", "unilateral"),
                                    {"Contact seat/Friction bound", "0.1"},
                                    {"Boundary cup.outer/Displacement", "0; 0"},
                                    {"Boundary disc.flat/Displacement", "0; -0.1"}});

@@ -23,11 +23,8 @@ using namespace verification;
 /** The unit ring in twice as large a one, eight cells around. */
 Overrides ring(const Overrides &others)
 {
-  Overrides entries{{"Geometry/Shape", "ring sector"},  {"Geometry/Radii", "1, 2"},
-                    {"Geometry/Angles", "0, 360"},      {"Geometry/Subdivisions", "1, 8"},
-                    {"Material/Young's modulus", "10"}, {"Material/Poisson's ratio", "0.3"},
-                    {"Adaptivity/Method", "pu"},        {"Adaptivity/Start degree", "8"},
-                    {"Adaptivity/Maximum steps", "1"}};
+  Overrides entries{given::ring("Geometry", "1, 2", "0, 360", "1, 8"), given::elastic("10", "0.3"),
+                    given::steps("pu", "1", "8")};
   entries.insert(entries.end(), others.begin(), others.end());
   return entries;
 }
@@ -71,9 +68,9 @@ private:
 /** Of a bound with one wave on each eighth only the mean is left, if each length counts as what it is. */
 TEST(CurvedContact, CarriesFrictionByLength)
 {
-  Scene<2> scene = scene_of(ring({{"Boundary inner/Displacement", "0; 0"},
-                                  {"Boundary outer/Contact", "bilateral"},
-                                  {"Boundary outer/Friction bound", "0.2+0.1*sin(8*atan2(y,x))"}}));
+  Scene<2> scene =
+      scene_of(ring({{"Boundary inner/Displacement", "0; 0"},
+                     given::rough("outer", "bilateral", "0.2+0.1*sin(8*atan2(y,x))")}));
   CoarseMesh mesh = *scene.geometry.mesh;
   const auto uneven = std::make_shared<const UnevenCircle>(2.);
   for (CoarseMesh::Edge &edge : mesh.edges)
@@ -103,8 +100,7 @@ TEST(CurvedContact, HasLamesPressure)
                p = -(2 * (lambda + mu) * -B / 4 - 2 * mu * B / 4);
   for (const std::string normal_contact : {"nodes", "multiplier"})
     AdaptiveSolver<2>(scene_of(ring({{"Boundary inner/Traction", "x; y"},
-                                     {"Boundary outer/Contact", "unilateral"},
-                                     {"Boundary outer/Friction bound", "0.01"},
+                                     given::rough("outer", "unilateral", "0.01"),
                                      {"Solver/Normal contact", normal_contact}})))
         .run(
             [&](const StepReport<2> &step)
@@ -120,8 +116,7 @@ TEST(CurvedContact, HasLamesPressure)
 TEST(CurvedContact, OrdersPointsAlongTheBoundary)
 {
   const Scene<2> scene = scene_of(ring({{"Boundary inner/Displacement", "0.01*x; 0.02*y"},
-                                        {"Boundary outer/Contact", "bilateral"},
-                                        {"Boundary outer/Friction bound", "0.1"}}));
+                                        given::rough("outer", "bilateral", "0.1")}));
   const RandomMesh mesh(scene, 5, 2, 3, 5);
   const Laboratory laboratory(scene, mesh);
   unsigned int n_falls = 0;
@@ -140,8 +135,7 @@ TEST(CurvedContact, OrdersPointsAlongTheBoundary)
 TEST(CurvedContact, CountsSlipFromThePast)
 {
   const Scene<2> scene = scene_of(ring({{"Boundary inner/Displacement", "-0.1*t*y; 0.1*t*x"},
-                                        {"Boundary outer/Contact", "bilateral"},
-                                        {"Boundary outer/Friction bound", "0.05"},
+                                        given::rough("outer", "bilateral", "0.05"),
                                         {"Loading/Steps", "2"}}));
   // u_t = K/(2 mu) (1/r - r) + U r with K = 4 g: what it has more at t = 1 than at t = 1/2 is rigid.
   const double mu = 10 / 2.6, slip = 0.05 * 2, all = 0.1 * 2 - 4 * 0.05 / (2 * mu) * (2 - 0.5);

@@ -23,8 +23,7 @@ Overrides ring(const Overrides &others)
   return with({{"Geometry/Shape", "ring sector"},
                {"Geometry/Radii", "1, 2"},
                {"Geometry/Subdivisions", "2, 4"},
-               {"Material/Young's modulus", "10"},
-               {"Material/Poisson's ratio", "0.3"}},
+               given::elastic("10", "0.3")},
               others);
 }
 
@@ -61,9 +60,8 @@ double relative_energy_error(const Scene<2> &scene, const Triangulation<2> &mesh
 /** Lame's ring under pressure inside, a quarter: J = -p u_r(1) pi/4. */
 TEST(Curves, MeetLamesRing)
 {
-  const Scene<2> scene = scene_of(ring({{"Boundary start/Symmetry", "true"},
-                                        {"Boundary end/Symmetry", "true"},
-                                        {"Boundary inner/Pressure", "1"}}));
+  const Scene<2> scene =
+      scene_of(ring({given::symmetric({"start", "end"}), {"Boundary inner/Pressure", "1"}}));
   const double u = 0.13 * (0.4 / 3 + 4. / 3), J = -u * numbers::PI / 4;
   // The square of what the energy norm of the error is on 4 x 2 cells, twice as much is a failure.
   for (const auto &[degree, limit] :
@@ -141,8 +139,7 @@ TEST(Curves, LetRingsTurnInTheirRing)
   {
     const Scene<2> scene = scene_of(ring({{"Geometry/Angles", "0, 360"},
                                           {"Geometry/Subdivisions", "2, 6"},
-                                          {"Boundary outer/Contact", "bilateral"},
-                                          {"Boundary outer/Friction bound", "0.1"}}));
+                                          given::rough("outer", "bilateral", "0.1")}));
     ASSERT_EQ(scene.free_motions().size(), 1U);
     EXPECT_LT(scene.free_motions()[0].at(Point<2>()).norm(), 1e-12);
     const RandomMesh mesh(scene, seed, 2, 3);
@@ -174,20 +171,14 @@ TEST(Curves, MeetTwoRingsInARigidOne)
   {
     const std::string U = in_digits(row.turn);
     const Scene<2> scene =
-        scene_of({{"Geometry/Shape", "ring sector"},
-                  {"Geometry/Radii", "1, 2"},
-                  {"Geometry/Angles", "0, 360"},
-                  {"Geometry/Subdivisions", "2, 8"},
-                  {"Material/Young's modulus", "10"},
-                  {"Material/Poisson's ratio", "0.3"},
+        scene_of({given::ring("Geometry", "1, 2", "0, 360", "2, 8"),
+                  given::elastic("10", "0.3"),
                   {"Material hard/Young's modulus", "1000"},
                   {"Material hard/Where", "x^2+y^2-2.25"},
                   {"Boundary inner/Displacement", "0.01*x-" + U + "*y; 0.01*y+" + U + "*x"},
                   {"Boundary outer/Contact", "bilateral"},
                   {"Boundary outer/" + row.friction_entry, row.friction},
-                  {"Adaptivity/Method", "pu"},
-                  {"Adaptivity/Start degree", "9"},
-                  {"Adaptivity/Maximum steps", "1"}});
+                  given::steps("pu", "1", "9")});
     AdaptiveSolver<2>(scene).run(
         [&](const StepReport<2> &step)
         {
@@ -226,13 +217,10 @@ TEST(Curves, MeetKirschsPlate)
   const auto energy = [&](const unsigned int degree)
   {
     const Scene<2> scene = scene_of({{"Geometry/Shape", "plate with hole"},
-                                     {"Geometry/Upper corner", "4, 4"},
+                                     given::box("4, 4", "4, 2"),
                                      {"Geometry/Part", "quarter"},
-                                     {"Geometry/Subdivisions", "4, 2"},
-                                     {"Material/Young's modulus", "10"},
-                                     {"Material/Poisson's ratio", "0.3"},
-                                     {"Boundary left/Symmetry", "true"},
-                                     {"Boundary bottom/Symmetry", "true"},
+                                     given::elastic("10", "0.3"),
+                                     given::symmetric({"left", "bottom"}),
                                      {"Boundary right/Traction", sx + ";" + sxy},
                                      {"Boundary top/Traction", sxy + ";" + sy}});
     const UniformMesh mesh(scene, degree);
@@ -365,8 +353,7 @@ TEST(Curves, LookLikeACircleThatWasMeant)
 TEST(Curves, ConvergeAtTheRateOfTheDegree)
 {
   const Scene<2> scene = scene_of(ring({{"Geometry/Subdivisions", "1, 2"},
-                                        {"Boundary start/Symmetry", "true"},
-                                        {"Boundary end/Symmetry", "true"},
+                                        given::symmetric({"start", "end"}),
                                         {"Boundary inner/Pressure", "1"}}));
   const double J = -0.13 * (0.4 / 3 + 4. / 3) * numbers::PI / 4;
   for (const unsigned int p : {2U, 3U, 4U})
@@ -383,12 +370,9 @@ TEST(Curves, ConvergeAtTheRateOfTheDegree)
 /** By degree from 2 on: the indicator over the error, whose square is what J_N is above J. */
 std::vector<double> effectivities(const Overrides &entries, const double J)
 {
-  const Scene<2> scene = scene_of(with(entries, {{"Material/Young's modulus", "10"},
-                                                 {"Material/Poisson's ratio", "0.3"},
-                                                 {"Adaptivity/Method", "pu"},
-                                                 {"Adaptivity/Start degree", "2"},
-                                                 {"Adaptivity/Maximum steps", "5"},
-                                                 {"Adaptivity/Tolerance", "0"}}));
+  const Scene<2> scene = scene_of(with(
+      entries,
+      {given::elastic("10", "0.3"), given::steps("pu", "5", "2"), {"Adaptivity/Tolerance", "0"}}));
   std::vector<double> result;
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
@@ -407,16 +391,12 @@ TEST(Curves, HaveTheEffectivityOfStraightCells)
   for (const std::string subdivisions : {"2, 4", "2, 2"})
   {
     const auto curved = effectivities(ring({{"Geometry/Subdivisions", subdivisions},
-                                            {"Boundary start/Symmetry", "true"},
-                                            {"Boundary end/Symmetry", "true"},
+                                            given::symmetric({"start", "end"}),
                                             {"Boundary inner/Pressure", "1"}}),
                                       -(U + V) * numbers::PI / 4);
     const auto straight =
-        effectivities({{"Geometry/Lower corner", "1, 0"},
-                       {"Geometry/Upper corner", "2, " + in_digits(length)},
-                       {"Geometry/Subdivisions", subdivisions},
-                       {"Boundary bottom/Symmetry", "true"},
-                       {"Boundary top/Symmetry", "true"},
+        effectivities({given::box("1, 0", "2, " + in_digits(length), subdivisions),
+                       given::symmetric({"bottom", "top"}),
                        {"Boundary right/Displacement", "0; free"},
                        {"Boundary left/Traction", in_digits(M * (V - U)) + "; 0"},
                        {"Body force/Expression", in_digits(-2 * M * V) + "/x^3; 0"}},

@@ -25,10 +25,9 @@ const std::vector<Rhombus> rhombi = {
 
 Scene<2> loaded(const Rhombus &cell, const Overrides &loads)
 {
-  Overrides entries = {
-      {"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", cell.corners},
-      {"Geometry/Subdivisions", "1, 1"},   {"Material/Young's modulus", "1"},
-      {"Material/Poisson's ratio", "0"},   {"Boundary bottom/Displacement", "0; 0"}};
+  Overrides entries = {given::quadrilateral("Geometry", cell.corners, "1, 1"),
+                       given::elastic("1", "0"),
+                       {"Boundary bottom/Displacement", "0; 0"}};
   entries.insert(entries.end(), loads.begin(), loads.end());
   return scene_of(entries);
 }
@@ -243,8 +242,7 @@ TEST(DataOfCells, AreKnownOfThoseThatStay)
     EquilibrationCache cache;
     AdaptiveSolver<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
                                              {"Body force/Expression", own_force},
-                                             {"Adaptivity/Method", method},
-                                             {"Adaptivity/Maximum steps", steps}}))
+                                             given::steps(method, steps)}))
         .run([&](const StepReport<2> &step) { check(step, cache); });
   }
 }
@@ -271,10 +269,9 @@ Scene<2> square_on_springs(const std::string &k, const std::string &method,
   return scene_of({{"Boundary bottom/Displacement", "0.01*sin(5*x); 0.002*exp(x)"},
                    {"Boundary bottom/Spring", k + "; " + k},
                    {"Boundary top/Traction", "0.001; -0.002"},
-                   {"Adaptivity/Method", method},
+                   given::steps(method, std::to_string(steps)),
                    {"Adaptivity/Tolerance", "0"},
-                   {"Adaptivity/Maximum unknowns", "3000"},
-                   {"Adaptivity/Maximum steps", std::to_string(steps)}});
+                   {"Adaptivity/Maximum unknowns", "3000"}});
 }
 
 TEST(SpringBesideSupport, CountsInTheLift)

@@ -431,8 +431,8 @@ TEST(MakeMesh, GradesTowardsAPointByLevels)
   for (const std::string corners : {"", "0, 0; 2.4, 3.2; -0.8, 5.6; -3.2, 2.4"}) // or turned
     for (const unsigned int levels : {0u, 1u, 3u})
     {
-      Overrides entries = {{"Geometry/Grading levels", std::to_string(levels)},
-                           {"Geometry/Graded towards", corners.empty() ? "1, 0" : "0.6, 0.8"}};
+      Overrides entries = {
+          given::graded("Geometry", corners.empty() ? "1, 0" : "0.6, 0.8", std::to_string(levels))};
       if (!corners.empty())
         for (const auto &[entry, value] : Overrides{{"Shape", "quadrilateral"},
                                                     {"Corners", corners},
@@ -453,12 +453,11 @@ TEST(MakeMesh, GradesTowardsAPointByLevels)
 TEST(MakeMesh, GradesOnlyTheCellAroundAPoint)
 {
   Triangulation<2> mesh;
-  make_mesh(shipped_scene("han-6-12", {{"Geometry/Shape", "quadrilateral"},
-                                       {"Geometry/Corners", "0, 0; 2.4, 3.2; -0.8, 5.6; -3.2, 2.4"},
-                                       {"Geometry/Lower corner", "0, 0"},
-                                       {"Geometry/Upper corner", "1, 1"},
-                                       {"Geometry/Grading levels", "1"},
-                                       {"Geometry/Graded towards", "-0.09, 1.38"}}),
+  make_mesh(shipped_scene("han-6-12",
+                          {given::quadrilateral("Geometry", "0, 0; 2.4, 3.2; -0.8, 5.6; -3.2, 2.4"),
+                           {"Geometry/Lower corner", "0, 0"},
+                           {"Geometry/Upper corner", "1, 1"},
+                           given::graded("Geometry", "-0.09, 1.38", "1")}),
             mesh);
   EXPECT_EQ(mesh.n_active_cells(), 19u);
 }

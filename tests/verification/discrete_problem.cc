@@ -375,17 +375,14 @@ INSTANTIATE_TEST_SUITE_P(, ThesisExample, ::testing::Values("han-6-12", "han-6-1
 /** Every kind of data; prescribed displacements move the end of the contact boundary. */
 Scene<2> scene_of_every_kind(const std::string &friction_bound, const Overrides &more = {})
 {
-  Overrides entries = {{"Geometry/Shape", "quadrilateral"},
-                       {"Geometry/Corners", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7"},
-                       {"Geometry/Subdivisions", "2, 2"},
+  Overrides entries = {given::quadrilateral("Geometry", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7", "2, 2"),
                        {"Material/Young's modulus", "7"},
                        {"Body force/Expression", "x*y; 1 - x"},
                        {"Boundary top/Displacement", "0.05 + 0.1*x; 0.05*y"},
                        {"Boundary left/Displacement", "0.05 + 0.1*x; free"},
                        {"Boundary left/Traction", "0; y"},
                        {"Boundary right/Traction", "1 + y; -x"},
-                       {"Boundary bottom/Contact", "bilateral"},
-                       {"Boundary bottom/Friction bound", friction_bound}};
+                       given::rough("bottom", "bilateral", friction_bound)};
   entries.insert(entries.end(), more.begin(), more.end());
   Scene<2> scene = scene_of(entries);
   scene.materials.push_back({20., 0.1, PlaneModel::stress});
@@ -560,10 +557,8 @@ TEST(Loads, OfDegreePPlusThreeAreIntegratedExactly)
     for (const std::string loaded : {"Boundary right/Traction", "Boundary bottom/Traction",
                                      "Boundary left/Traction", "Body force/Expression"})
     {
-      const Scene<2> scene = scene_of({{"Geometry/Upper corner", "1, 1.5"},
-                                       {"Geometry/Subdivisions", "1, 2"},
-                                       {"Boundary top/Displacement", "0; 0"},
-                                       {loaded, smooth}});
+      const Scene<2> scene = scene_of(
+          {given::box("1, 1.5", "1, 2"), {"Boundary top/Displacement", "0; 0"}, {loaded, smooth}});
       const RandomMesh mesh(scene, 1, 1, p, p);
       const Laboratory discrete(scene, mesh);
       std::mt19937 random(p);
@@ -625,13 +620,9 @@ constexpr double young = 2.6, poisson = 0.3, shear_modulus = 1.;
 /** The sides carry the traction of the shear stress; the top does, or follows the displacement. */
 Scene<2> shear_scene(const Block &block, const Shear &shear)
 {
-  Overrides entries = {{"Geometry/Shape", "quadrilateral"},
-                       {"Geometry/Corners", block.corner_text()},
-                       {"Geometry/Subdivisions", "2, 2"},
-                       {"Material/Young's modulus", in_digits(young)},
-                       {"Material/Poisson's ratio", in_digits(poisson)},
-                       {"Boundary bottom/Contact", "bilateral"},
-                       {"Boundary bottom/Friction bound", in_digits(shear.friction_bound)}};
+  Overrides entries = {given::quadrilateral("Geometry", block.corner_text(), "2, 2"),
+                       given::elastic(in_digits(young), in_digits(poisson)),
+                       given::rough("bottom", "bilateral", in_digits(shear.friction_bound))};
   std::vector<std::tuple<std::string, int, int>> loaded = {{"right", 1, 2}, {"left", 3, 0}};
   const Tensor<1, 2> along = block.turned(Point<2>(1., 0.));
   const std::string u =
@@ -795,10 +786,9 @@ Scene<2> turned_square(const double angle)
            in_digits(block.turned(Point<2>(0., 1.))[c]);
   };
   return shipped_scene("han-6-12",
-                       {{"Geometry/Shape", "quadrilateral"},
+                       {given::quadrilateral("Geometry", block.corner_text()),
                         {"Geometry/Lower corner", "0, 0"},
                         {"Geometry/Upper corner", "1, 1"},
-                        {"Geometry/Corners", block.corner_text()},
                         {"Boundary left/Traction", component(0) + "; " + component(1)}});
 }
 
@@ -831,19 +821,16 @@ TEST(Rotation, TurnsTheSolutionOfTheSquare)
 }
 
 /** Cells and free unknowns of the last of six steps of the default method, on a block turned by @p angle and sheared. */
-std::pair<unsigned int, unsigned int> default_mesh(const double angle, Overrides overrides)
+std::pair<unsigned int, unsigned int> default_mesh(const double angle, const Overrides &overrides)
 {
   const Block block{"", {{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, angle};
   const Tensor<1, 2> shear = block.turned(Point<2>(0.02, -0.01));
-  overrides.insert(overrides.end(),
-                   {{"Geometry/Shape", "quadrilateral"},
-                    {"Geometry/Corners", block.corner_text()},
-                    {"Geometry/Subdivisions", "2, 1"},
-                    {"Boundary top/Displacement", in_digits(shear[0]) + "; " + in_digits(shear[1])},
-                    {"Boundary bottom/Contact", "bilateral"},
-                    {"Boundary bottom/Friction bound", "0.005"},
-                    {"Adaptivity/Maximum steps", "6"}});
-  const Scene<2> scene = scene_of(overrides);
+  const Scene<2> scene =
+      scene_of(overrides + Overrides{given::quadrilateral("Geometry", block.corner_text(), "2, 1"),
+                                     {"Boundary top/Displacement",
+                                      in_digits(shear[0]) + "; " + in_digits(shear[1])},
+                                     given::rough("bottom", "bilateral", "0.005"),
+                                     {"Adaptivity/Maximum steps", "6"}});
   std::pair<unsigned int, unsigned int> mesh;
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
@@ -971,9 +958,7 @@ TEST_P(RandomHpMesh, ConstraintsDoNotMultiplyRoundOff)
 TEST_P(RandomHpMesh, ReproducesLinearDisplacements)
 {
   const std::string linear = "0.3 + 0.1*x - 0.2*y; 0.05*x + 0.4*y - 0.1";
-  Overrides entries = {{"Geometry/Shape", "quadrilateral"},
-                       {"Geometry/Corners", "0, 0; 3, 0.2; 2.6, 2; -0.3, 1.5"},
-                       {"Geometry/Subdivisions", "3, 2"}};
+  Overrides entries = {given::quadrilateral("Geometry", "0, 0; 3, 0.2; 2.6, 2; -0.3, 1.5", "3, 2")};
   for (const std::string side : {"left", "right", "bottom", "top"})
     entries.emplace_back("Boundary " + side + "/Displacement", linear);
   const Scene<2> scene = scene_of(entries);
@@ -1046,8 +1031,8 @@ TEST(StagesNotNamed, WithoutFrictionThereIsNoMultiplier)
 {
   for (const std::string bound : {"", "0", "0.0"})
   {
-    const Scene<2> scene = scene_of(pushed_block_with(
-        {{"Boundary bottom/Contact", "bilateral"}, {"Boundary bottom/Friction bound", bound}}));
+    const Scene<2> scene =
+        scene_of(pushed_block_with({given::rough("bottom", "bilateral", bound)}));
     EXPECT_FALSE(scene.has_friction());
     expect_no_quadratic_program(scene, true);
     expect_empty_reduction(scene);
@@ -1056,8 +1041,7 @@ TEST(StagesNotNamed, WithoutFrictionThereIsNoMultiplier)
 
 TEST(StagesNotNamed, AFrictionBoundThatVanishesEverywhereIsNoFriction)
 {
-  const Scene<2> scene = scene_of(pushed_block_with(
-      {{"Boundary bottom/Contact", "bilateral"}, {"Boundary bottom/Friction bound", "0*x"}}));
+  const Scene<2> scene = scene_of(pushed_block_with({given::rough("bottom", "bilateral", "0*x")}));
   expect_no_quadratic_program(scene, true);
   expect_empty_reduction(scene);
 }

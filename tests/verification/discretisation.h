@@ -5,6 +5,7 @@
 #include "../overrides.h"
 
 #include <gtest/gtest.h>
+#include <hpvi/base/numerical_failure.h>
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/plane/internal_forces.h>
 #include <hpvi/reader/scene_reader.h>
@@ -55,6 +56,29 @@ inline Scene<2> scene_of(const Overrides &entries)
   std::filesystem::remove(file);
   return scene;
 }
+
+/** All steps of a run. */
+template <int dim>
+void each_step(const Scene<dim> &scene, const std::function<void(const StepReport<dim> &)> &heard)
+{
+  AdaptiveSolver<dim>(scene).run(heard);
+}
+
+/** Why @p scene has no solution; empty: it has one. */
+inline std::string failure_of(const Scene<2> &scene)
+{
+  return ::failure_of<NumericalFailure>(
+      [&]
+      {
+        each_step<2>(scene,
+                     [](const StepReport<2> &step)
+                     {
+                       EXPECT_TRUE(std::isfinite(step.energies.energy));
+                       EXPECT_TRUE(std::isfinite(step.solution().u.l2_norm()));
+                     });
+      });
+}
+using ::failure_of;
 
 /** Bisect a third of the cells, some levels deep; deal.II keeps the mesh 1-irregular. */
 inline void refine_at_random(Triangulation<2> &mesh, const unsigned int levels,
@@ -175,13 +199,33 @@ private:
   mutable std::unique_ptr<const LinearSolver> solver;
 };
 
-/** Does any of the warnings hold these words? */
-inline bool mentions(const std::vector<std::string> &warnings, const std::string &words)
+/** The one edge at the bottom of a unit square of one cell, and what of friction it misses under a pressure. */
+struct PressedEdge
 {
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string &warning)
-                     { return warning.find(words) != std::string::npos; });
-}
+  explicit PressedEdge(const Scene<2> &scene, const unsigned int p = 3)
+      : mesh(scene, 1, 0, p, p), lab(scene, mesh), z(lab.contact_space.n_multipliers())
+  {
+  }
+
+  /** Multipliers of this pressure and no friction. */
+  const Vector<double> &under(const double pressure)
+  {
+    for (const unsigned int k : lab.contact_space.faces().at(0).pressures)
+      z[k] = pressure;
+    return z;
+  }
+
+  auto bounds(const double pressure)
+  {
+    return space.unresolved_bounds(under(pressure));
+  }
+
+  const RandomMesh mesh;
+  const Laboratory lab;
+  const ContactSpace<2> &space = lab.contact_space;
+  Vector<double> z;
+};
+
 /** A reference solution in a file of its own for the time of a test. */
 class ReferenceFile
 {

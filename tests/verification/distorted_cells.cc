@@ -197,16 +197,12 @@ TEST_P(DistortedCells, AreCondensedAsByDenseElimination)
 /** Parallelograms have a matrix for it, other cells strains: both between them on one mesh, and forces the other way. */
 TEST(Condensation, FindsTheWayIntoCellsAndOut)
 {
-  const Scene<2> scene = scene_of({{"Body one/Shape", "quadrilateral"},
-                                   {"Body one/Corners", "0, 0; 2, 0; 1.7, 1.2; 0.2, 1"},
-                                   {"Body one/Subdivisions", "2, 2"},
-                                   {"Body two/Lower corner", "0, -1"},
-                                   {"Body two/Upper corner", "2, 0"},
-                                   {"Body two/Subdivisions", "2, 1"},
-                                   {"Contact joint/Between", "one.bottom, two.top"},
-                                   {"Contact joint/Law", "tied"},
-                                   {"Boundary two.bottom/Displacement", "0; 0"},
-                                   {"Body force/Expression", "0; -1"}});
+  const Scene<2> scene =
+      scene_of({given::quadrilateral("Body one", "0, 0; 2, 0; 1.7, 1.2; 0.2, 1", "2, 2"),
+                given::block("two", "0, -1", "2, 0", "2, 1"),
+                given::joint("joint", "one.bottom, two.top", "tied"),
+                {"Boundary two.bottom/Displacement", "0; 0"},
+                {"Body force/Expression", "0; -1"}});
   const RandomMesh mesh(scene, 5, 1, 1, 5);
   const Laboratory laboratory(scene, mesh);
   const Condensation<2> &condensation = laboratory.discretisation.condensation;

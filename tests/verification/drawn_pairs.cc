@@ -140,12 +140,9 @@ Overrides fitted(const std::string &law, const std::string &slave, const unsigne
 {
   Overrides entries{{"Contact fit/Between", "pin.outer, sheet.inner"},
                     {"Contact fit/Slave", slave},
-                    {"Material/Young's modulus", "10"},
-                    {"Material/Poisson's ratio", "0.3"},
+                    given::elastic("10", "0.3"),
                     {"Boundary pin.inner/Pressure", "1"},
-                    {"Adaptivity/Method", "pu"},
-                    {"Adaptivity/Start degree", std::to_string(p)},
-                    {"Adaptivity/Maximum steps", "1"}};
+                    given::steps("pu", "1", std::to_string(p))};
   if (law == "Coulomb")
     entries.emplace_back("Contact fit/Friction coefficient", "0.3");
   else
@@ -321,16 +318,12 @@ TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
                         face = body == 0 ? "outer" : "inner";
       const Overrides ring{{"Geometry/Shape", "file"},
                            {"Geometry/File", file},
-                           {"Material/Young's modulus", in_digits(E)},
-                           {"Material/Poisson's ratio", in_digits(nu)},
+                           given::elastic(in_digits(E), in_digits(nu)),
                            {"Boundary inner/Curve", "circle"},
                            {"Boundary outer/Curve", "circle"},
-                           {"Boundary start/Symmetry", "true"},
-                           {"Boundary end/Symmetry", "true"},
+                           given::symmetric({"start", "end"}),
                            {"Boundary inner/Pressure", "1"},
-                           {"Adaptivity/Method", "pu"},
-                           {"Adaptivity/Start degree", "4"},
-                           {"Adaptivity/Maximum steps", "1"}};
+                           given::steps("pu", "1", "4")};
       const double work = body == 0 ? inner_work - fit_work : fit_work;
       Overrides on_circle =
           joined({ring,
@@ -479,36 +472,19 @@ TEST(DrawnPairs, TakeSplinesForOneCurve)
                             {"Body upper/File", file("upper", row.upper, row.m, 1)},
                             {"Boundary lower.inner/Curve", "spline"},
                             {"Boundary upper.inner/Curve", "spline"},
-                            {"Boundary lower.outer/Symmetry", "true"},
-                            {"Boundary lower.start/Symmetry", "true"},
-                            {"Boundary upper.start/Symmetry", "true"},
+                            given::symmetric({"lower.outer", "lower.start", "upper.start"}),
                             {"Boundary upper.outer/Pressure", "1"},
-                            {"Contact joint/Between", "upper.inner, lower.inner"},
-                            {"Contact joint/Law", "tied"},
-                            {"Material/Young's modulus", in_digits(E)},
-                            {"Material/Poisson's ratio", in_digits(nu)},
-                            {"Adaptivity/Method", "pu"},
-                            {"Adaptivity/Start degree", "4"},
-                            {"Adaptivity/Maximum steps", "1"}};
+                            given::joint("joint", "upper.inner, lower.inner", "tied"),
+                            given::elastic(in_digits(E), in_digits(nu)),
+                            given::steps("pu", "1", "4")};
     if (!row.problem.empty())
     {
-      try
-      {
-        scene_of(entries);
-        ADD_FAILURE() << row.name << " is taken";
-      }
-      catch (const InputError &error)
-      {
-        EXPECT_NE(std::string(error.what()).find(row.problem), std::string::npos)
-            << row.name << ": " << error.what();
-      }
+      const std::string refusal = failure_of<InputError>([&] { scene_of(entries); });
+      EXPECT_TRUE(says(refusal, row.problem)) << row.name << ": " << refusal;
       continue;
     }
     const Scene<2> scene = scene_of(entries);
-    EXPECT_TRUE(std::any_of(scene.remarks.begin(), scene.remarks.end(),
-                            [](const std::string &remark)
-                            { return remark.find("leave open") != std::string::npos; }))
-        << row.name;
+    EXPECT_TRUE(mentions(scene.remarks, "leave open")) << row.name;
     double energy = 0;
     AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { energy = step.energies.energy; });
     EXPECT_NEAR(energy * E / (1 - nu * nu) / -2, 1, 1e-4) << row.name;
@@ -535,9 +511,8 @@ Overrides half_disc(const std::string &body, const std::string &centre, const do
 
 Overrides bar(const double half_length)
 {
-  return {{"Body bar/Lower corner", in_digits(-half_length) + ", -10"},
-          {"Body bar/Upper corner", in_digits(half_length) + ", 0"},
-          {"Body bar/Subdivisions", "12, 1"},
+  return {given::block("bar", in_digits(-half_length) + ", -10", in_digits(half_length) + ", 0",
+                       "12, 1"),
           {"Boundary bar.bottom/Displacement", "0; 0"}};
 }
 
@@ -582,34 +557,27 @@ TEST(DrawnPairs, LeaveOutEdgesThatAreFarForTheirRadius)
       {"a small roller on a large one", "roller.arc, disc.arc",
        joined({roller,
                half_disc("disc", "0, -200", 200, 0),
-               {{"Body disc/Graded towards", "0, 0"},
-                {"Body disc/Grading levels", "5"},
+               {given::graded("Body disc", "0, 0", "5"),
                 {"Boundary disc.flat/Displacement", "0; 0"}}}),
        1 / (1 / 5. + 1 / 200.), 0},
       {"a roller on a slope", "roller.arc, slope.top",
        joined({half_disc("roller", "-2.5, 4.3301270189221936", 5, 210),
                {{"Boundary roller.flat/Displacement", "0.025; -0.0433"},
-                {"Body slope/Shape", "quadrilateral"},
-                {"Body slope/Corners",
-                 "-98.9230484541326, -68.6602540378444; 108.9230484541326, 51.3397459621556; "
-                 "103.9230484541326, 60; "
-                 "-103.9230484541326, -60"},
-                {"Body slope/Subdivisions", "12, 1"},
+                given::quadrilateral(
+                    "Body slope",
+                    "-98.9230484541326, -68.6602540378444; 108.9230484541326, 51.3397459621556; "
+                    "103.9230484541326, 60; "
+                    "-103.9230484541326, -60",
+                    "12, 1"),
                 {"Boundary slope.bottom/Displacement", "0; 0"}}}),
        5, 0},
       {"a tube in a massive arch",
        "tube.outer, arch.inner",
-       {{"Body tube/Shape", "ring sector"},
+       {given::ring("Body tube", "2, 5", "-90, 270", "1, 8"),
         {"Body tube/Centre", "0, 5"},
-        {"Body tube/Radii", "2, 5"},
-        {"Body tube/Angles", "-90, 270"},
-        {"Body tube/Subdivisions", "1, 8"},
         {"Boundary tube.inner/Displacement", "0; -0.05"},
-        {"Body arch/Shape", "ring sector"},
+        given::ring("Body arch", "8, 120", "190, 350", "4, 6"),
         {"Body arch/Centre", "0, 8"},
-        {"Body arch/Radii", "8, 120"},
-        {"Body arch/Angles", "190, 350"},
-        {"Body arch/Subdivisions", "4, 6"},
         {"Boundary arch.outer/Displacement", "0; 0"}},
        1 / (1 / 5. - 1 / 8.),
        0},
@@ -623,16 +591,11 @@ TEST(DrawnPairs, LeaveOutEdgesThatAreFarForTheirRadius)
   {
     const Scene<2> scene = scene_of(joined({row.bodies,
                                             {{"Contact line/Between", row.between},
-                                             {"Material/Young's modulus", "210000"},
-                                             {"Material/Poisson's ratio", "0.3"},
-                                             {"Adaptivity/Method", "hpa3"},
-                                             {"Adaptivity/Maximum steps", "9"},
+                                             given::elastic("210000", "0.3"),
+                                             given::steps("hpa3", "9"),
                                              {"Adaptivity/Maximum unknowns", "3500"}}}));
     EXPECT_EQ(scene.pairs[0].slave, row.slave) << row.name;
-    const auto remark = std::find_if(scene.remarks.begin(), scene.remarks.end(),
-                                     [](const std::string &one)
-                                     { return one.find("leaves out") != std::string::npos; });
-    EXPECT_NE(remark, scene.remarks.end()) << row.name;
+    EXPECT_TRUE(mentions(scene.remarks, "leaves out")) << row.name;
     double highest = 0, force = 0;
     AdaptiveSolver<2>(scene).run(
         [&](const StepReport<2> &step)
@@ -704,10 +667,8 @@ TEST(DrawnPairs, PressAFilletBesideAFlatFoot)
   const auto force = [](const Overrides &entries)
   {
     const Scene<2> scene = scene_of(joined({entries,
-                                            {{"Material/Young's modulus", "210000"},
-                                             {"Material/Poisson's ratio", "0.3"},
-                                             {"Adaptivity/Method", "hpa3"},
-                                             {"Adaptivity/Maximum steps", "8"},
+                                            {given::elastic("210000", "0.3"),
+                                             given::steps("hpa3", "8"),
                                              {"Adaptivity/Maximum unknowns", "3000"}}}));
     double sum = 0;
     AdaptiveSolver<2>(scene).run(
@@ -728,8 +689,7 @@ TEST(DrawnPairs, PressAFilletBesideAFlatFoot)
                     {"Boundary punch.fillet/Curve", "circle"},
                     {"Boundary punch.outer/Displacement", "0; -0.02"},
                     {"Body bar/Material", "rigid"},
-                    {"Material rigid/Young's modulus", "2.1e11"},
-                    {"Material rigid/Poisson's ratio", "0.3"}},
+                    given::elastic("2.1e11", "0.3", "rigid")},
                    bar(120),
                    first,
                    second});
@@ -812,17 +772,12 @@ std::string fork(const std::string &name, const double slope)
 /** Pairs of parts are those of whole sides where these say the same: all of it, or a gap that never closes on the rest. */
 TEST(DrawnPairs, TakePartsOfSides)
 {
-  const Overrides blocks{{"Body lower/Upper corner", "3, 1"},
-                         {"Body lower/Subdivisions", "6, 2"},
-                         {"Body upper/Lower corner", "1, 1"},
-                         {"Body upper/Upper corner", "2, 2"},
-                         {"Body upper/Subdivisions", "4, 2"},
+  const Overrides blocks{given::block("lower", "3, 1", "6, 2"),
+                         given::block("upper", "1, 1", "2, 2", "4, 2"),
                          {"Boundary lower.bottom/Displacement", "0; 0"},
                          {"Boundary upper.top/Displacement", "0.01; -0.05"},
                          {"Contact joint/Friction bound", "0.1"}};
-  const Overrides two{{"Body other/Lower corner", "0, 1"},
-                      {"Body other/Upper corner", "0.75, 2"},
-                      {"Body other/Subdivisions", "2, 2"},
+  const Overrides two{given::block("other", "0, 1", "0.75, 2", "2, 2"),
                       {"Boundary other.top/Displacement", "0; -0.1"}};
   const Overrides rings = joined({fitted("unilateral", "pin.outer", 4),
                                   ring_file("pin", 1, angles(2, [] { return 0.; })),
@@ -832,9 +787,7 @@ TEST(DrawnPairs, TakePartsOfSides)
   {
     return Overrides{{"Body fork/Shape", "file"},
                      {"Body fork/File", fork("fork" + in_digits(slope), slope)},
-                     {"Body upper/Lower corner", "0, 3"},
-                     {"Body upper/Upper corner", "3, 4"},
-                     {"Body upper/Subdivisions", "2, 1"},
+                     given::block("upper", "0, 3", "3, 4", "2, 1"),
                      {"Boundary fork.base/Displacement", "0; 0"},
                      {"Boundary upper.top/Displacement", "0; -0.05"},
                      {"Contact joint/Slave", "upper.bottom"}};

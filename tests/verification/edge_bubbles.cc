@@ -53,8 +53,7 @@ TEST(EdgeBubbles, HaveTheLeastEnergy)
        {"0, 0; 2, 0; 2, 1; 0, 1", "0, 0; 2, 0; 2.5, 1; 0.5, 1", "0, 0; 2, 0; 1.5, 1; 0, 1.2"})
     for (const unsigned int p : {2, 3})
     {
-      const Scene<2> scene = shipped_scene(
-          "han-6-12", {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", corners}});
+      const Scene<2> scene = shipped_scene("han-6-12", {given::quadrilateral("Geometry", corners)});
       const RandomMesh mesh(scene, 1, 0, p, p);
       const Laboratory lab(scene, mesh);
       const ContactFace<2> &face = lab.contact_space.faces()[0];

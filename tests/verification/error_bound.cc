@@ -166,9 +166,7 @@ void PrintTo(const Body &body, std::ostream *out)
   *out << body.name;
 }
 
-class Admissible : public ::testing::TestWithParam<Body>
-{
-};
+using Admissible = ::testing::TestWithParam<Body>;
 
 void expect_admissible(const Solution<2> &solution, const EquilibratedStress &stress)
 {
@@ -272,53 +270,41 @@ INSTANTIATE_TEST_SUITE_P(
         Body{"nearlyIncompressible", "plane-strain", {{"Material/Poisson's ratio", "0.4999"}}},
         Body{"nearlyIncompressibleParallelogram",
              "han-6-12-unilateral",
-             {{"Geometry/Shape", "quadrilateral"},
-              {"Geometry/Corners", rotated},
+             {given::quadrilateral("Geometry", rotated),
               {"Material/Plane", "strain"},
               {"Material/Poisson's ratio", "0.4999"}}},
         Body{"bodyForce", "han-6-12", {{"Body force/Expression", "0.3; -2"}}},
         Body{"free", "semicoercive", {}},
         Body{"held", "han-6-12", {{"Boundary top/Displacement", "free; 0"}}},
-        Body{"twoContacts",
-             "han-6-12",
-             {{"Boundary top/Contact", "bilateral"}, {"Boundary top/Friction bound", "3"}}},
+        Body{"twoContacts", "han-6-12", {given::rough("top", "bilateral", "3")}},
         Body{"tangential", "han-6-12", {{"Boundary bottom/Contact", "tangential"}}},
-        Body{"parallelogram",
-             "han-6-12",
-             {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", rotated}}},
-        Body{"skew", "han-6-12", {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", skew}}},
+        Body{"parallelogram", "han-6-12", {given::quadrilateral("Geometry", rotated)}},
+        Body{"skew", "han-6-12", {given::quadrilateral("Geometry", skew)}},
         Body{"skewRoller",
              "han-6-12",
-             {{"Geometry/Shape", "quadrilateral"},
-              {"Geometry/Corners", skew},
+             {given::quadrilateral("Geometry", skew),
               {"Boundary top/Displacement", "free; 0"},
               {"Boundary left/Displacement", "0; free"},
               {"Boundary left/Traction", "0; 1"}}},
         Body{"skewSides",
              "han-6-12",
-             {{"Geometry/Shape", "quadrilateral"},
-              {"Geometry/Corners", skew},
+             {given::quadrilateral("Geometry", skew),
               {"Boundary right/Displacement", ""},
-              {"Boundary right/Contact", "bilateral"},
-              {"Boundary right/Friction bound", "1"},
+              given::rough("right", "bilateral", "1"),
               {"Boundary top/Displacement", "0; free"}}},
         Body{"skewOpens",
              "han-6-12-unilateral",
-             {{"Geometry/Shape", "quadrilateral"},
-              {"Geometry/Corners", skew},
-              {"Boundary top/Traction", "0; -2"}}},
+             {given::quadrilateral("Geometry", skew), {"Boundary top/Traction", "0; -2"}}},
         Body{"opens", "han-6-12-unilateral", {}},
         Body{"opensByMoments", "han-6-12-unilateral", {{"Solver/Normal contact", "multiplier"}}},
         Body{"opensOnAParallelogram",
              "han-6-12-unilateral",
-             {{"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", rotated}}},
+             {given::quadrilateral("Geometry", rotated)}},
         Body{"cylinder", "hertz", {}}, Body{"punch", "punch", {}},
         Body{"longCells", "han-6-12", {{"Geometry/Subdivisions", "16, 1"}}},
         Body{"longSlantedCells",
              "han-6-12",
-             {{"Geometry/Shape", "quadrilateral"},
-              {"Geometry/Corners", rotated},
-              {"Geometry/Subdivisions", "1, 8"},
+             {given::quadrilateral("Geometry", rotated, "1, 8"),
               {"Boundary top/Displacement", "free; 0"}}}),
     [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
 
@@ -367,12 +353,11 @@ TEST(ErrorBoundOfUnilateralContact, IsAboveTheErrorAndNear)
     for (const std::string method : {"hpa3", "hap4", "hup2"})
     {
       SCOPED_TRACE(contact + " " + method);
-      const auto [smallest, largest] = effectivities(
-          shipped_scene("hertz", {{"Solver/Normal contact", contact},
-                                  {"Adaptivity/Method", method},
-                                  {"Adaptivity/Indicator", "bound"},
-                                  {"Adaptivity/Maximum steps", method == "hup2" ? "4" : "12"}}),
-          1e-9);
+      const auto [smallest, largest] =
+          effectivities(shipped_scene("hertz", {{"Solver/Normal contact", contact},
+                                                given::steps(method, method == "hup2" ? "4" : "12"),
+                                                {"Adaptivity/Indicator", "bound"}}),
+                        1e-9);
       EXPECT_GE(smallest, 1.);
       EXPECT_LE(largest, 1.8);
     }
@@ -381,15 +366,13 @@ TEST(ErrorBoundOfUnilateralContact, IsAboveTheErrorAndNear)
 /** What a gap that is no polynomial has between the nodes counts as data. */
 TEST(ErrorBoundOfUnilateralContact, SeesTheGapBetweenNodes)
 {
-  AdaptiveSolver<2>(
-      shipped_scene("han-6-12-unilateral", {{"Boundary bottom/Gap", "0.01*(1 - cos(x))"},
-                                            {"Adaptivity/Maximum steps", "2"}}))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            EXPECT_GT(step.bound->data, 1e-7);
-          });
+  each_step<2>(shipped_scene("han-6-12-unilateral", {{"Boundary bottom/Gap", "0.01*(1 - cos(x))"},
+                                                     {"Adaptivity/Maximum steps", "2"}}),
+               [](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 EXPECT_GT(step.bound->data, 1e-7);
+               });
 }
 
 /** A body that lies on waves between the nodes: the bound holds beside a finer run, both by their distance and their energies. */
@@ -406,7 +389,7 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
   };
   const std::string file = ::testing::TempDir() + "waves-" + std::to_string(std::random_device()());
   double low = 0, high = 0, of_reference = 0;
-  AdaptiveSolver<2>(with({{"Adaptivity/Method", "hpa3"}, {"Adaptivity/Maximum steps", "9"}}))
+  AdaptiveSolver<2>(with({given::steps("hpa3", "9")}))
       .run(
           [&](const StepReport<2> &step)
           {
@@ -417,9 +400,7 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
             low = step.energies.energy - step.bound->energy_below;
             high = step.energies.energy + step.bound->energy_above;
           });
-  AdaptiveSolver<2>(with({{"Adaptivity/Method", "hup2"},
-                          {"Adaptivity/Maximum steps", "3"},
-                          {"Error/Reference solution", file}}))
+  AdaptiveSolver<2>(with({given::steps("hup2", "3"), {"Error/Reference solution", file}}))
       .run(
           [&](const StepReport<2> &step)
           {
@@ -437,15 +418,13 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
 TEST(ErrorBoundOfUnilateralContact, IsNearWhereTheHeldEndIsOpen)
 {
   for (const std::string contact : {"nodes", "multiplier"})
-    AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", "2, 1"},
-                                {"Geometry/Subdivisions", "2, 1"},
+    AdaptiveSolver<2>(scene_of({given::box("2, 1", "2, 1"),
                                 {"Boundary right/Displacement", "0; 0"},
                                 {"Boundary top/Traction", "0; -0.1"},
                                 {"Boundary bottom/Contact", "unilateral"},
                                 {"Boundary bottom/Gap", "0.02 + 0.02*x"},
                                 {"Solver/Normal contact", contact},
-                                {"Adaptivity/Method", "hup2"},
-                                {"Adaptivity/Maximum steps", "1"}}))
+                                given::steps("hup2", "1")}))
         .run(
             [](const StepReport<2> &step)
             {
@@ -457,8 +436,7 @@ TEST(ErrorBoundOfUnilateralContact, IsNearWhereTheHeldEndIsOpen)
 /** Tangent and normal are the unknowns at the vertices there; w is small beside the error. */
 TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
 {
-  AdaptiveSolver<2>(shipped_scene("han-6-12-unilateral", {{"Geometry/Shape", "quadrilateral"},
-                                                          {"Geometry/Corners", rotated},
+  AdaptiveSolver<2>(shipped_scene("han-6-12-unilateral", {given::quadrilateral("Geometry", rotated),
                                                           {"Adaptivity/Maximum steps", "12"}}))
       .run(
           [](const StepReport<2> &step)
@@ -468,9 +446,7 @@ TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
           });
 }
 
-class Effectivity : public ::testing::TestWithParam<Body>
-{
-};
+using Effectivity = ::testing::TestWithParam<Body>;
 
 TEST_P(Effectivity, BoundIsAboveTheErrorAndNear)
 {
@@ -485,16 +461,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Body{"hpa3", "stick-slip", {}},
                       Body{"hpa3ByBound", "stick-slip", {{"Adaptivity/Indicator", "bound"}}},
                       Body{"hpa2", "stick-slip", {{"Adaptivity/Method", "hpa2"}}},
-                      Body{"hap4",
-                           "stick-slip",
-                           {{"Adaptivity/Method", "hap4"},
-                            {"Adaptivity/Start degree", "4"},
-                            {"Adaptivity/Maximum steps", "8"}}},
-                      Body{"hup2",
-                           "stick-slip",
-                           {{"Adaptivity/Method", "hup2"},
-                            {"Adaptivity/Start degree", "2"},
-                            {"Adaptivity/Maximum steps", "5"}}},
+                      Body{"hap4", "stick-slip", {given::steps("hap4", "8", "4")}},
+                      Body{"hup2", "stick-slip", {given::steps("hup2", "5", "2")}},
                       Body{"strain", "plane-strain", {}}, Body{"smooth", "smooth", {}}),
     [](const ::testing::TestParamInfo<Body> &info) { return info.param.name; });
 
@@ -551,8 +519,7 @@ TEST(ErrorBoundInsideAnEdge, IsAboveTheErrorAndNear)
     const auto [smallest, largest] =
         effectivities(shipped_scene("stick-slip", {{"Exact solution/Transition", "0.1"},
                                                    {"Adaptivity/Indicator", "bound"},
-                                                   {"Adaptivity/Method", method},
-                                                   {"Adaptivity/Maximum steps", "8"}}),
+                                                   given::steps(method, "8")}),
                       1e-10);
     EXPECT_GE(smallest, 1.) << method;
     EXPECT_LE(largest, near) << method;
@@ -566,8 +533,7 @@ TEST(ErrorBoundOfAVaryingBound, IsAboveTheErrorAndNear)
       [](const std::string &method, const std::string &unknowns, const std::string &reference)
   {
     return shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5*(1 + 0.3*sin(5*x))"},
-                                      {"Adaptivity/Method", method},
-                                      {"Adaptivity/Maximum steps", "40"},
+                                      given::steps(method, "40"),
                                       {"Adaptivity/Maximum unknowns", unknowns},
                                       {"Error/Reference solution", reference}});
   };
@@ -592,13 +558,10 @@ TEST(ErrorBoundNearIncompressibility, IsAboveTheErrorAndNear)
                                                                  {"hap4", "0.499999", 2.}})
   {
     SCOPED_TRACE(method + " " + poisson);
-    const auto [smallest, largest] =
-        effectivities(shipped_scene("plane-strain",
-                                    {{"Material/Poisson's ratio", poisson},
-                                     {"Adaptivity/Method", method},
-                                     {"Adaptivity/Start degree", "0"},
-                                     {"Adaptivity/Maximum steps", method == "hpa3" ? "10" : "4"}}),
-                      1e-9);
+    const auto [smallest, largest] = effectivities(
+        shipped_scene("plane-strain", {{"Material/Poisson's ratio", poisson},
+                                       given::steps(method, method == "hpa3" ? "10" : "4", "0")}),
+        1e-9);
     EXPECT_GE(smallest, 1.);
     EXPECT_LE(largest, near);
   }
@@ -662,20 +625,19 @@ TEST(ErrorBoundOfSlip, MovesNothingFarFromWhereSlipEnds)
 /** |d - w|_a by cells: w is along the contact boundary, data are missed elsewhere. */
 TEST(ErrorBound, AddsCorrectionAndDataCellByCell)
 {
-  AdaptiveSolver<2>(shipped_scene("plane-strain", {{"Material/Poisson's ratio", "0.4999"},
-                                                   {"Adaptivity/Indicator", "bound"},
-                                                   {"Adaptivity/Maximum steps", "3"}}))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            const ErrorBound &bound = *step.bound;
-            ASSERT_GT(bound.data, 0.);
-            ASSERT_LT(bound.oscillation, 1e-12 * bound.total); // round-off
-            const double least = std::hypot(bound.stress, bound.slip);
-            EXPECT_GE(bound.total * (1. + 1e-11), std::hypot(least, bound.data));
-            EXPECT_LT(bound.total, 0.999 * std::hypot(bound.stress, bound.slip + bound.data));
-          });
+  each_step<2>(shipped_scene("plane-strain", {{"Material/Poisson's ratio", "0.4999"},
+                                              {"Adaptivity/Indicator", "bound"},
+                                              {"Adaptivity/Maximum steps", "3"}}),
+               [](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 const ErrorBound &bound = *step.bound;
+                 ASSERT_GT(bound.data, 0.);
+                 ASSERT_LT(bound.oscillation, 1e-12 * bound.total); // round-off
+                 const double least = std::hypot(bound.stress, bound.slip);
+                 EXPECT_GE(bound.total * (1. + 1e-11), std::hypot(least, bound.data));
+                 EXPECT_LT(bound.total, 0.999 * std::hypot(bound.stress, bound.slip + bound.data));
+               });
 }
 
 /** (J): the intervals of all steps have a point in common, and shrink. */
@@ -773,12 +735,8 @@ Scene<2> told(const ToldScene &scene, const Tensor<2, 2> &turn, const double shi
   return scene_of(entries);
 }
 
-const Overrides three_steps = {{"Material/Young's modulus", "10"},
-                               {"Adaptivity/Method", "hpa3"},
-                               {"Adaptivity/Maximum steps", "3"}};
-const Overrides more_steps = {{"Material/Young's modulus", "10"},
-                              {"Adaptivity/Method", "hpa1"},
-                              {"Adaptivity/Maximum steps", "4"}};
+const Overrides three_steps = {{"Material/Young's modulus", "10"}, given::steps("hpa3", "3")};
+const Overrides more_steps = {{"Material/Young's modulus", "10"}, given::steps("hpa1", "4")};
 const std::array<Point<2>, 4> leaning = {{{0, 0}, {1.5, 0}, {1.8, 1.2}, {0.3, 1.2}}},
                               upright = {{{0, 0}, {1.5, 0}, {1.5, 1.2}, {0, 1.2}}};
 

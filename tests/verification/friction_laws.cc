@@ -82,9 +82,7 @@ struct Patch
   double limit; ///< wherever the boundary slips
 };
 
-class FrictionPatch : public ::testing::TestWithParam<std::tuple<Patch, CoulombMethod, Contact>>
-{
-};
+using FrictionPatch = ::testing::TestWithParam<std::tuple<Patch, CoulombMethod, Contact>>;
 
 /**
  * sigma_yy = -(1 + x), sigma_xy = tau: with E = 1 and nu = 0 that is u = (2 tau y + y^2/2 + slip, -(1 + x) y), and
@@ -352,13 +350,11 @@ TEST(FrictionLaws, TakeLoadHistories)
   for (const std::string law : {"limited", "cohesive"})
   {
     double dissipated = 0;
-    LoadHistory<2>(scene_of({{"Geometry/Upper corner", "4, 1"},
-                             {"Geometry/Subdivisions", "4, 1"},
+    LoadHistory<2>(scene_of({given::box("4, 1", "4, 1"),
                              {"Material/Young's modulus", "1000"},
                              {"Loading/Steps", "4"},
                              {"Boundary top/Displacement", "0.008*sin(2*pi*t); -0.004"},
-                             {"Boundary bottom/Contact", "unilateral"},
-                             {"Boundary bottom/Friction bound", "0.8"},
+                             given::rough("bottom", "unilateral", "0.8"),
                              {"Boundary bottom/Friction coefficient", "0.3"},
                              {"Boundary bottom/Friction law", law},
                              {"Adaptivity/Maximum steps", "1"}}))
@@ -377,25 +373,16 @@ TEST(FrictionLaws, TakeLoadHistories)
 TEST(FrictionLaws, NameWhatAnEdgeMisses)
 {
   Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
-                             {"Boundary bottom/Contact", "unilateral"},
-                             {"Boundary bottom/Friction bound", "0.5"},
+                             given::rough("bottom", "unilateral", "0.5"),
                              {"Boundary bottom/Friction coefficient", "x"},
                              {"Boundary bottom/Friction law", "limited"}});
-  Triangulation<2> mesh;
-  make_mesh(scene, mesh);
-  const Laboratory discrete(scene, mesh, Degrees(1, 3));
-  const ContactSpace<2> &space = discrete.contact_space;
-  Vector<double> z(space.n_multipliers());
-  for (const unsigned int pressure : space.faces().at(0).pressures)
-    z[pressure] = 1.;
-  const auto bounds = space.unresolved_bounds(z);
+  const auto bounds = PressedEdge(scene).bounds(1.);
   ASSERT_EQ(bounds.size(), 1U);
   EXPECT_EQ(bounds[0].entry, "Friction law");
   EXPECT_NEAR(bounds[0].sum, 0.5 * (0.5 - 1 / std::sqrt(12.)) + 0.25, 1e-14);
   EXPECT_NEAR(bounds[0].integral, 0.375, 0.02); // of one Gauss rule over the kink
   scene.boundary("bottom").friction.form = FrictionForm::cohesive;
-  const Laboratory other(scene, mesh, Degrees(1, 3));
-  EXPECT_TRUE(other.contact_space.unresolved_bounds(z).empty());
+  EXPECT_TRUE(PressedEdge(scene).bounds(1.).empty());
 }
 
 /** A jump of the bound matters where it is the limit, one of the coefficient where that is. */
@@ -404,18 +391,11 @@ TEST(FrictionLaws, CountJumpsWhereTheyAct)
   for (const bool capped : {true, false})
   {
     Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
-                               {"Boundary bottom/Contact", "unilateral"},
-                               {"Boundary bottom/Friction bound", "if(x < 0.4, 0.5, 0.6)"},
+                               given::rough("bottom", "unilateral", "if(x < 0.4, 0.5, 0.6)"),
                                {"Boundary bottom/Friction coefficient", "if(x < 0.4, 0.3, 0.4)"},
                                {"Boundary bottom/Friction law", "limited"}});
-    Triangulation<2> mesh;
-    make_mesh(scene, mesh);
-    const Laboratory discrete(scene, mesh, Degrees(1, 3));
-    const ContactSpace<2> &space = discrete.contact_space;
-    Vector<double> z(space.n_multipliers());
-    for (const unsigned int pressure : space.faces().at(0).pressures)
-      z[pressure] = capped ? 10. : 1.;
-    const auto jumps = space.unresolved_jumps(z);
+    PressedEdge edge(scene);
+    const auto jumps = edge.space.unresolved_jumps(edge.under(capped ? 10. : 1.));
     ASSERT_EQ(jumps.size(), 1U);
     EXPECT_EQ(jumps[0].entry, capped ? "Friction bound" : "Friction coefficient");
     EXPECT_NEAR(jumps[0].height, 0.1, 1e-12);

@@ -54,19 +54,6 @@ Outcome run(const Scene<2> &scene)
   return last;
 }
 
-std::string failure_of(const Scene<2> &scene)
-{
-  try
-  {
-    run(scene);
-  }
-  catch (const NumericalFailure &failure)
-  {
-    return failure.what();
-  }
-  return "a body without equilibrium passed as a result";
-}
-
 /** On a random mesh: u to the round-off that a soft spring leaves, and all conditions. */
 Outcome expect_field(const Scene<2> &scene, const Turned &body,
                      const std::function<Tensor<1, 2>(const Point<2> &)> &field)
@@ -404,10 +391,7 @@ TEST(Piles, GiveWayInTheWordsOfStatics)
       {"a disc in the place of a block",
        {{"Body b/Lower corner", ""},
         {"Body b/Upper corner", ""},
-        {"Body b/Shape", "half disc"},
-        {"Body b/Centre", "2, 1.5"},
-        {"Body b/Radius", "0.5"},
-        {"Body b/Angle", "180"},
+        given::half_disc("Body b", "2, 1.5", "0.5", "180"),
         {"Boundary b.top/Pressure", ""},
         {"Boundary b.flat/Pressure", "-1"},
         {"Contact j/Between", "b.arc, a.top"}},
@@ -597,13 +581,12 @@ TEST(HeldByContactTurned, DoesNotDependOnTheAxes)
     const double c = std::cos(numbers::PI / 6), s = std::sin(numbers::PI / 6);
     const auto vector = [&](const double x, const double y, const std::string &separator)
     { return in_digits(c * x - s * y) + separator + in_digits(s * x + c * y); };
-    Overrides turned = few;
-    turned.insert(turned.end(),
-                  {{"Geometry/Shape", "quadrilateral"},
-                   {"Geometry/Corners", vector(0, 0, ", ") + "; " + vector(2, 0, ", ") + "; " +
-                                            vector(2, 2, ", ") + "; " + vector(0, 2, ", ")},
-                   {"Body force/Expression", vector(0, -1, "; ")},
-                   {"Boundary left/Traction", vector(1, 0, "; ")}});
+    const Overrides turned =
+        few + Overrides{given::quadrilateral("Geometry",
+                                             vector(0, 0, ", ") + "; " + vector(2, 0, ", ") + "; " +
+                                                 vector(2, 2, ", ") + "; " + vector(0, 2, ", ")),
+                        {"Body force/Expression", vector(0, -1, "; ")},
+                        {"Boundary left/Traction", vector(1, 0, "; ")}};
     const Outcome one = run(shipped_scene("resting", few)),
                   other = run(shipped_scene("resting", turned));
     ASSERT_EQ(one.z.size(), other.z.size());
@@ -617,17 +600,16 @@ TEST(CorrectedBody, StaysOnItsPlane)
 {
   unsigned int n_corrected = 0;
   for (const std::string normal : {"nodes", "multiplier"})
-    AdaptiveSolver<2>(shipped_scene("resting", {{"Material/Poisson's ratio", "0.4999"},
-                                                {"Solver/Normal contact", normal},
-                                                {"Adaptivity/Method", "hup2"},
-                                                {"Adaptivity/Maximum unknowns", "4000"},
-                                                {"Error/Bound", "false"}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              n_corrected += step.reduced->algebraic.corrections > 0;
-              expect_complementary(step.solution());
-            });
+    each_step<2>(shipped_scene("resting", {{"Material/Poisson's ratio", "0.4999"},
+                                           {"Solver/Normal contact", normal},
+                                           {"Adaptivity/Method", "hup2"},
+                                           {"Adaptivity/Maximum unknowns", "4000"},
+                                           {"Error/Bound", "false"}}),
+                 [&](const StepReport<2> &step)
+                 {
+                   n_corrected += step.reduced->algebraic.corrections > 0;
+                   expect_complementary(step.solution());
+                 });
   EXPECT_GE(n_corrected, 4u);
 }
 } // namespace

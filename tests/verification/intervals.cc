@@ -16,8 +16,6 @@ namespace
 {
 using namespace verification;
 
-using Overrides = std::vector<std::pair<std::string, std::string>>;
-
 /** By name of the row, of all steps with a bound. */
 struct Numbers
 {
@@ -214,18 +212,14 @@ TEST(Intervals, OfStaticallyDeterminateForcesAreExact)
 TEST(Intervals, CountWhatRoundOffLeavesOfRigidMotions)
 {
   const double area = 0.037996, fy = 0.014; // by the corners
-  const Numbers numbers =
-      numbers_of(scene_of({{"Geometry/Shape", "quadrilateral"},
-                           {"Geometry/Corners", "0, 0; 1.4, 0; 1.17, 0.032; 0.049, 0.028"},
-                           {"Geometry/Subdivisions", "3, 1"},
-                           {"Material/Young's modulus", "19"},
-                           {"Body force/Expression", "0.12; " + in_digits(fy)},
-                           {"Boundary bottom/Contact", "tangential"},
-                           {"Boundary bottom/Friction bound", "0.15"},
-                           {"Boundary right/Displacement", "0; 0"},
-                           {"Adaptivity/Method", "hap2"},
-                           {"Adaptivity/Maximum steps", "3"},
-                           {"Error/Bound on distorted cells", "true"}}));
+  const Numbers numbers = numbers_of(
+      scene_of({given::quadrilateral("Geometry", "0, 0; 1.4, 0; 1.17, 0.032; 0.049, 0.028", "3, 1"),
+                {"Material/Young's modulus", "19"},
+                {"Body force/Expression", "0.12; " + in_digits(fy)},
+                given::rough("bottom", "tangential", "0.15"),
+                {"Boundary right/Displacement", "0; 0"},
+                given::steps("hap2", "3"),
+                {"Error/Bound on distorted cells", "true"}}));
   EXPECT_EQ(numbers.intervals.at("right.y").size(), 3U);
   for (const Interval &interval : numbers.intervals.at("right.y"))
   {
@@ -474,14 +468,11 @@ const std::vector<HeldProbe> held_probes{
              {"Boundary end/Traction", "0.01; 0"}}),
      "end", "xy", ""},
     {"symmetry_at_an_angle",
-     pulled({{"Geometry/Shape", "quadrilateral"},
-             {"Geometry/Corners", "0, 0; 1, -0.2; 1.2, 0.8; 0.2, 1"},
+     pulled({given::quadrilateral("Geometry", "0, 0; 1, -0.2; 1.2, 0.8; 0.2, 1"),
              {"Boundary bottom/Symmetry", "true"}}),
      "bottom", "", "slides at an angle"}};
 
-class AnyProbe : public ::testing::TestWithParam<HeldProbe>
-{
-};
+using AnyProbe = ::testing::TestWithParam<HeldProbe>;
 
 TEST_P(AnyProbe, HasTheMeanOfAFinerRun)
 {
@@ -490,8 +481,7 @@ TEST_P(AnyProbe, HasTheMeanOfAFinerRun)
   {
     Overrides entries = row.scene;
     for (const auto &entry : Overrides{{"Probe here/On", row.side},
-                                       {"Adaptivity/Method", method},
-                                       {"Adaptivity/Maximum steps", steps},
+                                       given::steps(method, steps),
                                        {"Adaptivity/Tolerance", "0"}})
       entries.push_back(entry);
     return numbers_of(scene_of(entries));

@@ -108,20 +108,17 @@ Scene<2> block(const Path &path, const std::string &contact, const unsigned int 
 {
   const std::string p = in_digits(path.pressure(t)),
                     tau = in_digits(jenkins(path, steps, std::lround(t * steps)).tau);
-  return scene_of({{"Geometry/Upper corner", in_digits(width) + ", 1"},
-                   {"Geometry/Subdivisions", "2, 1"},
-                   {"Material/Young's modulus", in_digits(young)},
-                   {"Material/Poisson's ratio", "0"},
+  return scene_of({given::box(in_digits(width) + ", 1", "2, 1"),
+                   given::elastic(in_digits(young), "0"),
                    {"Boundary bottom/Contact", contact},
-                   path.coefficient > 0 ? std::make_pair("Boundary bottom/Friction coefficient",
-                                                         in_digits(path.coefficient))
-                                        : std::make_pair("Boundary bottom/Friction bound", p),
+                   path.coefficient > 0 ? Overrides{{"Boundary bottom/Friction coefficient",
+                                                     in_digits(path.coefficient)}}
+                                        : Overrides{{"Boundary bottom/Friction bound", p}},
                    {"Boundary top/Displacement", in_digits(path.displacement(t)) + "; free"},
                    {"Boundary top/Traction", "0; -" + p},
                    {"Boundary right/Traction", "0; " + tau},
                    {"Boundary left/Traction", "0; -(" + tau + ")"},
-                   {"Adaptivity/Method", "hap2"},
-                   {"Adaptivity/Maximum steps", "1"}});
+                   given::steps("hap2", "1")});
 }
 
 Scene<2> block(const Path &path, const std::string &contact, const unsigned int steps)
@@ -134,9 +131,7 @@ Scene<2> block(const Path &path, const std::string &contact, const unsigned int 
 
 const auto wave = [](const double t) { return 0.5 * std::sin(4 * M_PI * t) + 0.1 * t; };
 
-class JenkinsElement : public ::testing::TestWithParam<std::pair<std::string, double>>
-{
-};
+using JenkinsElement = ::testing::TestWithParam<std::pair<std::string, double>>;
 
 TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
 {
@@ -234,9 +229,7 @@ struct Mindlin
 TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
 {
   const Scene<2> plain = shipped_scene("partial-slip", {{"Exact solution/Solution", "none"},
-                                                        {"Boundary left/Displacement", "0; 0"},
-                                                        {"Boundary right/Displacement", "0; 0"},
-                                                        {"Boundary top/Displacement", "0; 0"},
+                                                        given::clamped({"left", "right", "top"}),
                                                         {"Error/Bound", "false"},
                                                         {"Adaptivity/Tolerance", "1e-4"},
                                                         {"Adaptivity/Maximum steps", "20"}});
@@ -277,14 +270,11 @@ TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
 /** A bar on a plane, moved by its right end: slip begins there and grows inwards. */
 Scene<2> bar(const unsigned int steps, const std::string &displacement, const Overrides &more = {})
 {
-  Overrides entries = {{"Geometry/Upper corner", "4, 0.5"},
-                       {"Geometry/Subdivisions", "8, 1"},
+  Overrides entries = {given::box("4, 0.5", "8, 1"),
                        {"Material/Young's modulus", "10"},
-                       {"Boundary bottom/Contact", "bilateral"},
-                       {"Boundary bottom/Friction bound", "0.1"},
+                       given::rough("bottom", "bilateral", "0.1"),
                        {"Boundary right/Displacement", displacement + "; free"},
-                       {"Adaptivity/Method", "hap3"},
-                       {"Adaptivity/Maximum steps", "1"},
+                       given::steps("hap3", "1"),
                        {"Loading/Steps", std::to_string(steps)},
                        {"Loading/Adapt", "first step"}};
   entries.insert(entries.end(), more.begin(), more.end());
@@ -395,13 +385,11 @@ TEST(LoadHistory, CountsTheWorkOfMovingGaps)
 {
   const auto pressed = [](const std::string &top, const std::string &gap, const unsigned int steps)
   {
-    return evolution(scene_of({{"Material/Young's modulus", "3"},
-                               {"Material/Poisson's ratio", "0"},
+    return evolution(scene_of({given::elastic("3", "0"),
                                {"Boundary top/Displacement", "0; " + top},
                                {"Boundary bottom/Contact", "unilateral"},
                                {"Boundary bottom/Gap", gap},
-                               {"Adaptivity/Method", "hap2"},
-                               {"Adaptivity/Maximum steps", "1"},
+                               given::steps("hap2", "1"),
                                {"Loading/Steps", std::to_string(steps)}}))
         .back()
         .load;
@@ -455,17 +443,13 @@ TEST(LoadHistory, HandsOnPastSlipWithoutError)
 {
   for (const unsigned int seed : {1, 2, 3, 4})
   {
-    Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                               {"Geometry/Corners", "0, 0; 3, 1; 2, 3; -0.5, 2"},
-                               {"Geometry/Subdivisions", "3, 2"},
-                               {"Boundary bottom/Contact", "unilateral"},
-                               {"Boundary bottom/Friction coefficient", "0.3"},
-                               {"Boundary right/Contact", "tangential"},
-                               {"Boundary right/Friction bound", "1 + x"},
-                               {"Boundary top/Contact", "tangential"},
-                               {"Boundary top/Friction bound", "1"},
-                               {"Boundary left/Contact", "unilateral"},
-                               {"Boundary left/Friction bound", "1"}});
+    Scene<2> scene =
+        scene_of({given::quadrilateral("Geometry", "0, 0; 3, 1; 2, 3; -0.5, 2", "3, 2"),
+                  {"Boundary bottom/Contact", "unilateral"},
+                  {"Boundary bottom/Friction coefficient", "0.3"},
+                  given::rough("right", "tangential", "1 + x"),
+                  given::rough("top", "tangential", "1"),
+                  given::rough("left", "unilateral", "1")});
     const RandomMesh coarse(scene, seed, 2, 2, 6);
     std::mt19937 random(seed);
     const Laboratory before(scene, coarse);
@@ -506,7 +490,7 @@ TEST(LoadHistory, HandsOnPastSlipWithoutError)
 
 TEST(LoadHistory, AdaptsAsLongAsTheFirstLoadStepIsMoreAccurate)
 {
-  const Overrides steps = {{"Adaptivity/Maximum steps", "6"}, {"Adaptivity/Method", "hpa3"}};
+  const Overrides steps = {given::steps("hpa3", "6")};
   Overrides each = steps;
   each.push_back({"Loading/Adapt", "every step"});
   std::vector<unsigned int> elements;
@@ -561,20 +545,14 @@ TEST(LoadHistory, TakesItsToleranceWhereThereIsAnError)
 /** Loads and displacements that fall to a tiny part of the largest, or to where bodies just touch, leave what is zero beside it, at once. */
 TEST(LoadHistory, ZeroIsBesideTheLargestLoad)
 {
-  const Overrides blocks = {{"Body lower/Upper corner", "1, 1"},
-                            {"Body lower/Subdivisions", "2, 2"},
-                            {"Body upper/Lower corner", "0, 1.01"},
-                            {"Body upper/Upper corner", "1, 2.01"},
-                            {"Body upper/Subdivisions", "3, 3"},
-                            {"Material/Young's modulus", "1000"},
-                            {"Material/Poisson's ratio", "0"},
+  const Overrides blocks = {given::block("lower", "1, 1", "2, 2"),
+                            given::block("upper", "0, 1.01", "1, 2.01", "3, 3"),
+                            given::elastic("1000", "0"),
                             {"Boundary lower.bottom/Displacement", "0; 0"},
                             {"Contact touch/Between", "upper.bottom, lower.top"},
                             {"Loading/Steps", "2"}},
-                  pad = {{"Geometry/Upper corner", "2, 1"},
-                         {"Geometry/Subdivisions", "4, 2"},
-                         {"Material/Young's modulus", "1000"},
-                         {"Material/Poisson's ratio", "0.3"},
+                  pad = {given::box("2, 1", "4, 2"),
+                         given::elastic("1000", "0.3"),
                          {"Boundary top/Displacement", "0.001*t; free"},
                          {"Boundary bottom/Contact", "unilateral"},
                          {"Loading/Steps", "2"}};
@@ -711,10 +689,7 @@ TEST(LoadHistory, KeepsTheFactorWhileTheMatrixStays)
         {"Boundary right/Traction", "0.3*t; 0"},
         {"Boundary top/Traction", "0; -0.2"}},
        4},
-      {{{"Boundary bottom/Friction bound", ""},
-        {"Boundary bottom/Friction coefficient", "0.3"},
-        {"Boundary top/Traction", "0; -0.2"}},
-       4}};
+      {{given::coulomb("0.3"), {"Boundary top/Traction", "0; -0.2"}}, 4}};
   for (const Case &one : cases)
   {
     const Scene<2> scene = bar(6, "0.03*sin(6*t)", one.entries);
@@ -758,15 +733,10 @@ TEST(LoadHistory, IsNoMatterOfASingleRun)
 /** What happens while @p scene runs, and in how many load steps it gets through. */
 std::string failure(const Scene<2> &scene, unsigned int &finished)
 {
-  try
-  {
-    LoadHistory<2>(scene).run([&](const StepReport<2> &step) { finished = step.load.number; });
-  }
-  catch (const std::exception &error)
-  {
-    return error.what();
-  }
-  return {};
+  return failure_of<std::exception>(
+      [&] {
+        LoadHistory<2>(scene).run([&](const StepReport<2> &step) { finished = step.load.number; });
+      });
 }
 
 TEST(LoadHistory, SaysInWhichLoadStepItFailed)
@@ -837,18 +807,16 @@ void PrintTo(const History &history, std::ostream *out)
   *out << history.name;
 }
 
-class Balance : public ::testing::TestWithParam<History>
-{
-};
+using Balance = ::testing::TestWithParam<History>;
 
 /** External work is what is stored, dissipated and released, through refinement too. */
 TEST_P(Balance, HoldsInEachLoadStep)
 {
-  Overrides entries = {
-      {"Geometry/Shape", "quadrilateral"}, {"Geometry/Corners", "0, 0; 4, -0.5; 3.5, 1.5; 0.2, 1"},
-      {"Geometry/Subdivisions", "4, 1"},   {"Material/Young's modulus", "10"},
-      {"Adaptivity/Method", "hpa2"},       {"Adaptivity/Maximum steps", "2"},
-      {"Adaptivity/Tolerance", "1e-9"},    {"Loading/Steps", "6"}};
+  Overrides entries = {given::quadrilateral("Geometry", "0, 0; 4, -0.5; 3.5, 1.5; 0.2, 1", "4, 1"),
+                       {"Material/Young's modulus", "10"},
+                       given::steps("hpa2", "2"),
+                       {"Adaptivity/Tolerance", "1e-9"},
+                       {"Loading/Steps", "6"}};
   entries.insert(entries.end(), GetParam().entries.begin(), GetParam().entries.end());
   const std::vector<State> states = evolution(scene_of(entries));
   ASSERT_EQ(states.size(), 6U);
@@ -888,16 +856,12 @@ INSTANTIATE_TEST_SUITE_P(
     Contacts, Balance,
     ::testing::Values(
         History{"bilateral",
-                with(shears, {{"Boundary bottom/Contact", "bilateral"},
-                              {"Boundary bottom/Friction bound", "0.02*(1 + t)*(1 + x)"}})},
-        History{"tangential", with(shears, {{"Boundary bottom/Contact", "tangential"},
-                                            {"Boundary bottom/Friction bound", "0.1"},
+                with(shears, {given::rough("bottom", "bilateral", "0.02*(1 + t)*(1 + x)")})},
+        History{"tangential", with(shears, {given::rough("bottom", "tangential", "0.1"),
                                             {"Body force/Expression", "0; -0.1*t"}})},
-        History{"nodes", with(shears, {{"Boundary bottom/Contact", "unilateral"},
-                                       {"Boundary bottom/Friction bound", "0.05*(2 - t)"},
+        History{"nodes", with(shears, {given::rough("bottom", "unilateral", "0.05*(2 - t)"),
                                        {"Boundary bottom/Gap", "0.002*x - 0.01*t"}})},
-        History{"multiplier", with(shears, {{"Boundary bottom/Contact", "unilateral"},
-                                            {"Boundary bottom/Friction bound", "0.05"},
+        History{"multiplier", with(shears, {given::rough("bottom", "unilateral", "0.05"),
                                             {"Boundary bottom/Gap", "0.002*x - 0.01*t^2"},
                                             {"Solver/Normal contact", "multiplier"}})},
         History{"coulomb", with(shears, {{"Boundary bottom/Contact", "unilateral"},
@@ -907,8 +871,7 @@ INSTANTIATE_TEST_SUITE_P(
                 with(shears, {{"Boundary bottom/Contact", "bilateral"},
                               {"Boundary bottom/Friction coefficient", "0.3"}})},
         History{"loads",
-                {{"Boundary bottom/Contact", "bilateral"},
-                 {"Boundary bottom/Friction bound", "0.1"},
+                {given::rough("bottom", "bilateral", "0.1"),
                  {"Boundary right/Displacement", "0.01*t*(1 + y^2); free"},
                  {"Boundary left/Traction", "0.5*sin(8*t); 0.1"},
                  {"Body force/Expression", "0.1*t; -0.1"}}}));

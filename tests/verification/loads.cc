@@ -284,11 +284,7 @@ TEST(LoadRules, AreMadeAnewWhereAMeshSeesMore)
       {
         const double force = step.equilibrium.loads.force[0];
         EXPECT_NEAR(force, step.number < 4 ? 0. : 2 * half, 1e-12) << step.number;
-        const bool is_told = std::any_of(
-            step.warnings.begin(), step.warnings.end(),
-            [](const Warning &warning)
-            { return warning.text.find("steps before knew nothing") != std::string::npos; });
-        EXPECT_EQ(is_told, step.number == 4);
+        EXPECT_EQ(mentions(texts(step.warnings), "steps before knew nothing"), step.number == 4);
       },
       [](const Progress &) {});
 }
@@ -303,20 +299,16 @@ TEST(MissedData, AreToldWhereAFinerMeshSeesThem)
          "0; if(abs(x - 0.24109851031341528) < 4e-4 && abs(y - 0.5) < 0.03, 1, 0); 0"}}},
       {"friction bounds sum to",
        {{"Boundary left/Traction", "1; 0"},
-        {"Boundary top/Contact", "bilateral"},
-        {"Boundary top/Friction bound", "0.1 + if(abs(x - 1.0121133235568793) < 4e-4, 1000, 0)"}}},
+        given::rough("top", "bilateral", "0.1 + if(abs(x - 1.0121133235568793) < 4e-4, 1000, 0)")}},
       {"stiffnesses of springs sum to",
        {{"Boundary left/Traction", "1; 0"},
         {"Boundary right/Spring", "5 + if(abs(y - 0.5414124727934966) < 3e-4, 1000, 0); 0"}}}};
   for (const auto &[words, entries] : data)
   {
-    verification::Overrides all = {{"Geometry/Upper corner", "1.289696343729227, 1"},
-                                   {"Geometry/Subdivisions", "2, 3"},
+    verification::Overrides all = {given::box("1.289696343729227, 1", "2, 3"),
                                    {"Material/Young's modulus", "1000"},
                                    {"Boundary bottom/Displacement", "0; 0"},
-                                   {"Adaptivity/Method", "hup2"},
-                                   {"Adaptivity/Start degree", "2"},
-                                   {"Adaptivity/Maximum steps", "4"},
+                                   given::steps("hup2", "4", "2"),
                                    {"Adaptivity/Tolerance", "0"}};
     all.insert(all.end(), entries.begin(), entries.end());
     std::string told;
@@ -639,8 +631,7 @@ std::vector<NarrowDatum> narrow_data()
     result.push_back({"pad" + number,
                       {{"Boundary left/Displacement", "0.01; 0"},
                        {"Boundary top/Traction", "0.001; 0"},
-                       {"Boundary bottom/Contact", "bilateral"},
-                       {"Boundary bottom/Friction bound", strip("x", 1 + row, 3 * n, "0.5")}},
+                       given::rough("bottom", "bilateral", strip("x", 1 + row, 3 * n, "0.5"))},
                       std::to_string(3 * n) + ", " + std::to_string(n)});
   }
   result.push_back(
@@ -651,9 +642,7 @@ std::vector<NarrowDatum> narrow_data()
   return result;
 }
 
-class NarrowData : public ::testing::TestWithParam<NarrowDatum>
-{
-};
+using NarrowData = ::testing::TestWithParam<NarrowDatum>;
 
 /** One cell and 16, whose lines are elsewhere, beside a mesh whose lines are at its ends. */
 TEST_P(NarrowData, AreTheSameOnMeshesThatDoNotKnowTheirPlace)
@@ -747,9 +736,7 @@ const std::vector<RoughDatum> rough_data{
     {"coefficient", rubbing("Friction coefficient", "0.3 + 0.2*exp(-((x - 0.371)/0.003)^2)")},
     {"coefficient_jump", rubbing("Friction coefficient", "if(x > 0.371, 0.3, 0.1)")}};
 
-class NoEnd : public ::testing::TestWithParam<RoughDatum>
-{
-};
+using NoEnd = ::testing::TestWithParam<RoughDatum>;
 
 TEST_P(NoEnd, WhereDataAreNotResolved)
 {

@@ -51,9 +51,7 @@ Scene<2> problem(const Body &body, const std::string &subdivisions, const std::s
   Overrides entries = {{"Geometry/Subdivisions", subdivisions},
                        {"Boundary " + body.held + "/Displacement", "0; 0"},
                        {"Boundary " + body.loaded, body.value},
-                       {"Adaptivity/Method", "hup2"},
-                       {"Adaptivity/Start degree", degree},
-                       {"Adaptivity/Maximum steps", steps},
+                       given::steps("hup2", steps, degree),
                        {"Adaptivity/Tolerance", "0"}};
   if (body.corners.empty())
     entries.emplace_back("Geometry/Upper corner", body.upper_corner);
@@ -66,9 +64,7 @@ Scene<2> problem(const Body &body, const std::string &subdivisions, const std::s
   return scene_of(entries);
 }
 
-class Length : public ::testing::TestWithParam<unsigned int>
-{
-};
+using Length = ::testing::TestWithParam<unsigned int>;
 
 TEST_P(Length, LeavesABound)
 {
@@ -102,9 +98,7 @@ void PrintTo(const Loose &loose, std::ostream *out)
   *out << loose.body.name;
 }
 
-class LongCells : public ::testing::TestWithParam<Loose>
-{
-};
+using LongCells = ::testing::TestWithParam<Loose>;
 
 /** The energies of a finer mesh tell the error, by Galerkin's orthogonality: a little too small. */
 TEST_P(LongCells, HaveABoundAboveTheErrorAndNear)
@@ -153,9 +147,8 @@ TEST(LongCellsAre, MoreThanFourTimesAsLongAsWide)
 {
   const auto are_long = [](const std::string &corners)
   {
-    const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                                     {"Geometry/Corners", corners},
-                                     {"Boundary left/Displacement", "0; 0"}});
+    const Scene<2> scene = scene_of(
+        {given::quadrilateral("Geometry", corners), {"Boundary left/Displacement", "0; 0"}});
     const RandomMesh mesh(scene, 1, 1, 2, 2);
     return has_long_cells(Laboratory(scene, mesh).solve());
   };
@@ -188,18 +181,16 @@ TEST(LongCellsThatAreDistorted, HaveABoundAboveTheError)
 /** High degrees in some cells: the factorisation keeps enough digits of the energy beside its conditions. */
 TEST(LongCellsOfManyDegrees, HaveABoundInEachStep)
 {
-  EXPECT_EQ(steps_of(scene_of({{"Geometry/Shape", "quadrilateral"},
-                               {"Geometry/Corners", "0, 0; 1.876, 0; 1.887, 0.009; 0.011, 0.009"},
-                               {"Geometry/Subdivisions", "3, 2"},
-                               {"Material/Young's modulus", "0.1"},
-                               {"Boundary bottom/Contact", "bilateral"},
-                               {"Boundary bottom/Friction bound", "0.0018"},
-                               {"Boundary right/Displacement", "1.3*y; -0.6*y*exp(-110*y)"},
-                               {"Adaptivity/Method", "hpa2"},
-                               {"Adaptivity/Indicator", "residual"},
-                               {"Adaptivity/Maximum steps", "6"},
-                               {"Error/Bound on distorted cells", "true"}}))
-                .size(),
-            6u);
+  EXPECT_EQ(
+      steps_of(scene_of({given::quadrilateral("Geometry",
+                                              "0, 0; 1.876, 0; 1.887, 0.009; 0.011, 0.009", "3, 2"),
+                         {"Material/Young's modulus", "0.1"},
+                         given::rough("bottom", "bilateral", "0.0018"),
+                         {"Boundary right/Displacement", "1.3*y; -0.6*y*exp(-110*y)"},
+                         given::steps("hpa2", "6"),
+                         {"Adaptivity/Indicator", "residual"},
+                         {"Error/Bound on distorted cells", "true"}}))
+          .size(),
+      6u);
 }
 } // namespace

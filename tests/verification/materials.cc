@@ -91,8 +91,7 @@ struct Bar
 /** Pulled by the stress 3 along x between walls without friction: `(lambda + 2 mu) eps = 3` in each. */
 std::unique_ptr<Bar> in_series()
 {
-  auto bar = std::make_unique<Bar>(0, Overrides{{"Geometry/Upper corner", "2, 1"},
-                                                {"Geometry/Subdivisions", "4, 2"},
+  auto bar = std::make_unique<Bar>(0, Overrides{given::box("2, 1", "4, 2"),
                                                 {"Boundary left/Displacement", "0; free"},
                                                 {"Boundary bottom/Contact", "bilateral"},
                                                 {"Boundary top/Displacement", "free; 0"},
@@ -106,8 +105,7 @@ std::unique_ptr<Bar> in_series()
 /** Stretched by 1/10 with a free top: `sigma_yy = 0` in each, the forces add. */
 std::unique_ptr<Bar> in_parallel()
 {
-  auto bar = std::make_unique<Bar>(1, Overrides{{"Geometry/Upper corner", "1, 2"},
-                                                {"Geometry/Subdivisions", "2, 4"},
+  auto bar = std::make_unique<Bar>(1, Overrides{given::box("1, 2", "2, 4"),
                                                 {"Boundary left/Displacement", "0; free"},
                                                 {"Boundary bottom/Contact", "bilateral"},
                                                 {"Boundary right/Displacement", "0.1; free"}});
@@ -202,8 +200,7 @@ double scaled_estimate(const std::vector<Material> &materials, const bool layer_
   Scene<2> scene = scene_of({{"Geometry/Subdivisions", "4, 4"},
                              {"Boundary left/Displacement", "0; 0"},
                              {"Boundary top/Traction", "0; -x^3"},
-                             {"Adaptivity/Method", "hup3"},
-                             {"Adaptivity/Maximum steps", "1"}});
+                             given::steps("hup3", "1")});
   scene.materials = materials;
   scene.material_at = [layer_is_first](const Point<2> &x)
   { return (x[1] > 0.5) == layer_is_first ? 0 : 1; };

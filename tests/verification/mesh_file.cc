@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "../texts.h"
 #include "mesh_texts.h"
 
 #include <hpvi/base/input_error.h>
@@ -370,13 +371,6 @@ TEST(MeshFile, RefusesFiles)
                                             "no such file.msh: cannot be read; check the name"},
         {"tests", "tests: is a directory; name a mesh file"},
         {"/dev/zero", "/dev/zero: cannot be read"}})
-    try
-    {
-      read_mesh_file(path);
-      ADD_FAILURE() << path;
-    }
-    catch (const InputError &error)
-    {
-      EXPECT_EQ(std::string(error.what()).find(message), 0) << error.what();
-    }
+    EXPECT_EQ(failure_of<InputError>([&, path = path] { read_mesh_file(path); }).find(message), 0)
+        << path;
 }

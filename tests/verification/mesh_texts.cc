@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "mesh_texts.h"
+#include "../texts.h"
 
 #include <hpvi/base/input_error.h>
 
@@ -243,13 +244,5 @@ CoarseMesh read_text(const std::string &text)
 
 std::string message_of(const std::string &text)
 {
-  try
-  {
-    read_text(text);
-    return "";
-  }
-  catch (const InputError &error)
-  {
-    return error.what();
-  }
+  return failure_of<InputError>([&] { read_text(text); });
 }

@@ -18,10 +18,11 @@ using namespace verification;
 
 Overrides body(const std::string &corners, const std::string &subdivisions)
 {
-  return {{"Geometry/Shape", "quadrilateral"},     {"Geometry/Corners", corners},
-          {"Geometry/Subdivisions", subdivisions}, {"Material/Young's modulus", "100"},
-          {"Material/Poisson's ratio", "0.3"},     {"Units/Length", "mm"},
-          {"Adaptivity/Tolerance", "0"},           {"Adaptivity/Method", "hpa3"}};
+  return {given::quadrilateral("Geometry", corners, subdivisions),
+          given::elastic("100", "0.3"),
+          {"Units/Length", "mm"},
+          {"Adaptivity/Tolerance", "0"},
+          {"Adaptivity/Method", "hpa3"}};
 }
 
 /** What steps say of the least energy, and the relative bound of the last one that has one. */
@@ -77,9 +78,7 @@ const std::vector<Tip> tips = {
      2},
     {"bent_foundation", beam({{"Boundary bottom/Gap", "0.1 + 0.001*cos(2*x)"}}), 2}};
 
-class TipContact : public ::testing::TestWithParam<Tip>
-{
-};
+using TipContact = ::testing::TestWithParam<Tip>;
 
 Bounds run(const Overrides &entries, const unsigned int n_steps)
 {
@@ -126,8 +125,7 @@ struct Reason
 
 /** Far from its support a beam hardly strains; cells there that are small lose what little it does. */
 const Overrides graded =
-    with(body("0, 0; 20, 0; 20, 1; 0, 1", "20, 1"), {{"Geometry/Graded towards", "20, 0"},
-                                                     {"Geometry/Grading levels", "25"},
+    with(body("0, 0; 20, 0; 20, 1; 0, 1", "20, 1"), {given::graded("Geometry", "20, 0", "25"),
                                                      {"Boundary left/Displacement", "0; 0"},
                                                      {"Boundary top/Traction", "0; -1"},
                                                      {"Adaptivity/Maximum steps", "1"}});
@@ -151,9 +149,7 @@ const std::vector<Reason> reasons = {
      with(held, {{"Material/Initial strain", "if(x > 0.2 + 0.7*y, 0.01, 0); 0; 0"}}),
      "initial strain is not resolved near (", " of all stresses of initial strains"}};
 
-class AnyReason : public ::testing::TestWithParam<Reason>
-{
-};
+using AnyReason = ::testing::TestWithParam<Reason>;
 
 TEST_P(AnyReason, IsSaidWithTheNumber)
 {
@@ -179,21 +175,21 @@ TEST(MissingBound, IsSaidWhereStrainsAreCutInCellsThatAreNoParallelograms)
   for (const auto &[entry, value] :
        Overrides{{"Body force/Expression", "if(y > 0.37, 1, 0); 0"},
                  {"Material/Initial strain", "if(y > 0.37, 0.01, 0); 0; 0"}})
-    AdaptiveSolver<2>(scene_of(with(body("0, 0; 2, 0; 1.5, 1; 0.5, 1", "1, 1"),
-                                    {{"Boundary bottom/Displacement", "0; 0"},
-                                     {entry, value},
-                                     {"Error/Bound on distorted cells", "true"},
-                                     {"Adaptivity/Maximum steps", "1"}})))
-        .run(
-            [&, is_force = entry.find("Body") == 0](const StepReport<2> &step)
-            {
-              EXPECT_EQ(bool(step.bound), is_force) << step.no_bound;
-              if (is_force)
-                return;
-              EXPECT_EQ(step.no_bound.find("Initial strain"), 0U) << step.no_bound;
-              EXPECT_NE(step.no_bound.find("is cut inside the cell at ("), std::string::npos)
-                  << step.no_bound;
-            });
+    each_step<2>(
+        scene_of(with(body("0, 0; 2, 0; 1.5, 1; 0.5, 1", "1, 1"),
+                      {{"Boundary bottom/Displacement", "0; 0"},
+                       {entry, value},
+                       {"Error/Bound on distorted cells", "true"},
+                       {"Adaptivity/Maximum steps", "1"}})),
+        [&, is_force = entry.find("Body") == 0](const StepReport<2> &step)
+        {
+          EXPECT_EQ(bool(step.bound), is_force) << step.no_bound;
+          if (is_force)
+            return;
+          EXPECT_EQ(step.no_bound.find("Initial strain"), 0U) << step.no_bound;
+          EXPECT_NE(step.no_bound.find("is cut inside the cell at ("), std::string::npos)
+              << step.no_bound;
+        });
 }
 
 TEST(MissingBound, KeepsItsImbalance)
@@ -284,13 +280,11 @@ Scene<2> hexagon(const Tensor<1, 2> &shift, const Overrides &entries)
   mesh.close();
   const Scene<2> scene = scene_of(with({{"Geometry/Shape", "file"},
                                         {"Geometry/File", file.string()},
-                                        {"Material/Young's modulus", "10"},
-                                        {"Material/Poisson's ratio", "0.3"},
+                                        given::elastic("10", "0.3"),
                                         {"Error/Bound on distorted cells", "true"},
                                         {"Boundary foot/Displacement", "0; 0"},
                                         {"Boundary head/Traction", "-1; -1"},
-                                        {"Boundary floor/Contact", "bilateral"},
-                                        {"Boundary floor/Friction bound", "0.1"},
+                                        given::rough("floor", "bilateral", "0.1"),
                                         {"Adaptivity/Tolerance", "0"}},
                                        entries));
   std::filesystem::remove(file);
@@ -304,9 +298,7 @@ TEST(MeshOfAFile, HasABoundWhereCellsTurn)
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::pair<double, double>> energies; // of each step, with the bound
     for (const auto &[method, steps] : {std::pair("pu", "6"), std::pair("hpa3", "9")})
-      AdaptiveSolver<2>(hexagon(shift, {{"Adaptivity/Method", method},
-                                        {"Adaptivity/Start degree", "2"},
-                                        {"Adaptivity/Maximum steps", steps}}))
+      AdaptiveSolver<2>(hexagon(shift, {given::steps(method, steps, "2")}))
           .run(
               [&](const StepReport<2> &step)
               {

@@ -184,9 +184,7 @@ double pressure_at_held_corners(const Solution<2> &solution)
   return sum;
 }
 
-class OpeningScene : public ::testing::TestWithParam<std::tuple<std::string, NormalContact>>
-{
-};
+using OpeningScene = ::testing::TestWithParam<std::tuple<std::string, NormalContact>>;
 
 /** In the first step, some later ones and the last. */
 TEST_P(OpeningScene, IsComplementaryAndBalanced)

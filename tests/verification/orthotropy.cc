@@ -101,11 +101,10 @@ SymmetricTensor<2, 2> strain_of(const SymmetricTensor<2, 2> &sigma, const Orthot
   return symmetrize(Q * e * transpose(Q));
 }
 
-const Overrides block = {{"Geometry/Upper corner", "2, 1"}, {"Geometry/Subdivisions", "2, 2"}},
-                distorted = {{"Geometry/Shape", "quadrilateral"},
-                             {"Geometry/Corners", "0, 0; 2, 0.3; 1.7, 1.4; -0.2, 1"},
-                             {"Geometry/Subdivisions", "2, 2"},
-                             {"Error/Bound on distorted cells", "true"}};
+const Overrides block = {given::box("2, 1", "2, 2")},
+                distorted = {
+                    given::quadrilateral("Geometry", "0, 0; 2, 0.3; 1.7, 1.4; -0.2, 1", "2, 2"),
+                    {"Error/Bound on distorted cells", "true"}};
 
 std::shared_ptr<const Field> uniform(const SymmetricTensor<2, 2> &strain)
 {
@@ -125,8 +124,7 @@ TEST(Orthotropy, UniformStressHasTheStrainInClosedForm)
       {
         SCOPED_TRACE(plane + " " + in_digits(angle));
         Scene<2> scene = scene_of(fibres(20, angle, plane) + geometry +
-                                  Overrides{{"Adaptivity/Method", "hup2"},
-                                            {"Adaptivity/Maximum steps", "2"},
+                                  Overrides{given::steps("hup2", "2"),
                                             {"Adaptivity/Tolerance", "0"},
                                             {"Boundary left/Displacement", "0; 0"}});
         scene.parameters = nullptr;
@@ -195,10 +193,8 @@ TEST(Orthotropy, SmoothFieldsConvergeExponentially)
   {
     Scene<2> scene =
         scene_of(fibres(ratio, 30) + Overrides{{"Geometry/Subdivisions", "2, 2"},
-                                               {"Adaptivity/Method", "pu"},
-                                               {"Adaptivity/Start degree", "2"},
+                                               given::steps("pu", "8", "2"),
                                                {"Adaptivity/Tolerance", "0"},
-                                               {"Adaptivity/Maximum steps", "8"},
                                                {"Boundary left/Displacement", "0; 0"}});
     scene.parameters = nullptr;
     prescribe(scene, exact);
@@ -250,23 +246,18 @@ std::vector<Outcome> outcomes(const Scene<2> &scene)
 /** A material with equal moduli is isotropic in all that is computed. */
 TEST(Orthotropy, EqualModuliGiveTheIsotropicSolution)
 {
-  const Overrides contact = {{"Geometry/Upper corner", "2, 1"},
-                             {"Geometry/Subdivisions", "4, 2"},
+  const Overrides contact = {given::box("2, 1", "4, 2"),
                              {"Boundary left/Displacement", "0; 0"},
                              {"Boundary top/Traction", "0; -1 - x"},
-                             {"Boundary bottom/Contact", "unilateral"},
-                             {"Boundary bottom/Friction bound", "0.1"},
+                             given::rough("bottom", "unilateral", "0.1"),
                              {"Body force/Expression", "0; -0.3*x"},
-                             {"Adaptivity/Method", "hpa3"},
-                             {"Adaptivity/Tolerance", "0"},
-                             {"Adaptivity/Maximum steps", "4"}};
+                             given::steps("hpa3", "4"),
+                             {"Adaptivity/Tolerance", "0"}};
   for (const std::string plane : {"stress", "strain"})
   {
     const double nu = 0.3, E = 7;
-    const std::vector<Outcome> isotropic =
-        outcomes(scene_of(contact + Overrides{{"Material/Plane", plane},
-                                              {"Material/Young's modulus", "7"},
-                                              {"Material/Poisson's ratio", "0.3"}}));
+    const std::vector<Outcome> isotropic = outcomes(
+        scene_of(contact + Overrides{{"Material/Plane", plane}, given::elastic("7", "0.3")}));
     Scene<2> scene =
         scene_of(contact + Overrides{{"Material/Plane", plane},
                                      {"Material/Elasticity", "orthotropic"},
@@ -306,18 +297,16 @@ TEST(Orthotropy, TurnedScenesHaveTheSameEnergyAndBound)
     const auto at = [&](const double x, const double y)
     { return in_digits(c * x - s * y) + ", " + in_digits(s * x + c * y); };
     const std::string along = "(" + in_digits(c) + "*x + " + in_digits(s) + "*y)";
-    Scene<2> result = scene_of(fibres(50, 20 + degrees) +
-                               Overrides{{"Geometry/Shape", "quadrilateral"},
-                                         {"Geometry/Corners", at(0, 0) + "; " + at(2, 0) + "; " +
-                                                                  at(2, 1) + "; " + at(0, 1)},
-                                         {"Geometry/Subdivisions", "4, 2"},
-                                         {"Boundary left/Displacement", "0; 0"},
-                                         {"Boundary bottom/Contact", "unilateral"},
-                                         {"Boundary bottom/Friction bound", "0.05"},
-                                         {"Boundary top/Pressure", "0.1 + 0.1*" + along},
-                                         {"Adaptivity/Method", "hpa3"},
-                                         {"Adaptivity/Tolerance", "0"},
-                                         {"Adaptivity/Maximum steps", "5"}});
+    Scene<2> result = scene_of(
+        fibres(50, 20 + degrees) +
+        Overrides{
+            given::quadrilateral(
+                "Geometry", at(0, 0) + "; " + at(2, 0) + "; " + at(2, 1) + "; " + at(0, 1), "4, 2"),
+            {"Boundary left/Displacement", "0; 0"},
+            given::rough("bottom", "unilateral", "0.05"),
+            {"Boundary top/Pressure", "0.1 + 0.1*" + along},
+            given::steps("hpa3", "5"),
+            {"Adaptivity/Tolerance", "0"}});
     return result;
   };
   const std::vector<Outcome> one = outcomes(scene(0)), turned = outcomes(scene(30));
@@ -339,14 +328,11 @@ TEST(Orthotropy, TensionOffAxisMovesTheEndAside)
   const auto energy = [](const double angle, const std::string &across)
   {
     double J = 0;
-    AdaptiveSolver<2>(
-        scene_of(fibres(30, angle) + Overrides{{"Geometry/Upper corner", "6, 1"},
-                                               {"Geometry/Subdivisions", "6, 1"},
-                                               {"Boundary left/Displacement", "0; 0"},
-                                               {"Boundary right/Traction", "1; " + across},
-                                               {"Adaptivity/Method", "hup4"},
-                                               {"Adaptivity/Maximum steps", "1"}}))
-        .run([&](const StepReport<2> &step) { J = step.energies.energy; });
+    each_step<2>(scene_of(fibres(30, angle) + Overrides{given::box("6, 1", "6, 1"),
+                                                        {"Boundary left/Displacement", "0; 0"},
+                                                        {"Boundary right/Traction", "1; " + across},
+                                                        given::steps("hup4", "1")}),
+                 [&](const StepReport<2> &step) { J = step.energies.energy; });
     return J;
   };
   const auto rise = [&](const double angle)
@@ -365,15 +351,7 @@ TEST(Orthotropy, TensionOffAxisMovesTheEndAside)
 template <int dim>
 std::string refusal(const Scene<dim> &scene)
 {
-  try
-  {
-    check(scene);
-  }
-  catch (const InputError &error)
-  {
-    return error.what();
-  }
-  return "";
+  return failure_of<InputError>([&] { check(scene); });
 }
 
 TEST(Orthotropy, IsRefusedWhereItIsNotOffered)
@@ -405,8 +383,7 @@ TEST(Orthotropy, NeverTakesThePrimalPath)
                            {"Adaptivity/Tolerance", "0"},
                            {"Adaptivity/Method", "hup4"},
                            {"Boundary left/Displacement", "0; 0"},
-                           {"Boundary bottom/Contact", "bilateral"},
-                           {"Boundary bottom/Friction bound", "1"}};
+                           given::rough("bottom", "bilateral", "1")};
   EXPECT_EQ(scene_of(large).solver.path, SolutionPath::primal);
   EXPECT_EQ(scene_of(large + fibres(3, 10)).solver.path, SolutionPath::automatic);
 }
@@ -419,8 +396,7 @@ TEST(Orthotropy, ScenePrmIsTheSameScene)
                                                       {"Material core/Angle", "40"},
                                                       {"Material rim/Where", "y - 0.5"},
                                                       {"Material rim/Elasticity", "isotropic"},
-                                                      {"Material rim/Young's modulus", "2"},
-                                                      {"Material rim/Poisson's ratio", "0.2"}});
+                                                      given::elastic("2", "0.2", "rim")});
   const auto file = std::filesystem::path(::testing::TempDir()) /
                     ("hpvi-" + std::to_string(std::random_device()()) + ".prm");
   std::ofstream(file) << effective_parameters(scene);
@@ -445,17 +421,15 @@ TEST(Orthotropy, WarnsOfLockingFibres)
     for (const unsigned int degree : {2, 4})
     {
       std::vector<std::string> words;
-      AdaptiveSolver<2>(scene_of(fibres(ratio, 30) +
-                                 Overrides{{"Boundary left/Displacement", "0; 0"},
-                                           {"Boundary right/Traction", "0; 1e-4"},
-                                           {"Adaptivity/Method", "hup" + std::to_string(degree)},
-                                           {"Adaptivity/Maximum steps", "1"}}))
-          .run(
-              [&](const StepReport<2> &step)
-              {
-                for (const auto &warning : step.warnings)
-                  words.push_back(warning.text);
-              });
+      each_step<2>(scene_of(fibres(ratio, 30) +
+                            Overrides{{"Boundary left/Displacement", "0; 0"},
+                                      {"Boundary right/Traction", "0; 1e-4"},
+                                      given::steps("hup" + std::to_string(degree), "1")}),
+                   [&](const StepReport<2> &step)
+                   {
+                     for (const auto &warning : step.warnings)
+                       words.push_back(warning.text);
+                   });
       EXPECT_EQ(mentions(words,
                          "times as stiff against one strain as against another and elements of "
                          "degree 2 may lock"),
@@ -471,9 +445,7 @@ struct Case
   std::string plane;
 };
 
-class OrthotropicBound : public ::testing::TestWithParam<Case>
-{
-};
+using OrthotropicBound = ::testing::TestWithParam<Case>;
 
 /** A finer run has less energy: half the square of the error. */
 TEST_P(OrthotropicBound, HoldsAndIsNear)
@@ -482,15 +454,12 @@ TEST_P(OrthotropicBound, HoldsAndIsNear)
   const auto scene = [&](const std::string &method, const unsigned int steps)
   {
     return scene_of(fibres(own.ratio, own.angle, own.plane) +
-                    Overrides{{"Geometry/Upper corner", "2, 1"},
-                              {"Geometry/Subdivisions", "4, 2"},
+                    Overrides{given::box("2, 1", "4, 2"),
                               {"Boundary left/Displacement", "0; 0"},
-                              {"Boundary bottom/Contact", "bilateral"},
-                              {"Boundary bottom/Friction bound", "0.1"},
+                              given::rough("bottom", "bilateral", "0.1"),
                               {"Boundary top/Traction", "0; -x*(2 - x)"},
-                              {"Adaptivity/Method", method},
-                              {"Adaptivity/Tolerance", "0"},
-                              {"Adaptivity/Maximum steps", std::to_string(steps)}});
+                              given::steps(method, std::to_string(steps)),
+                              {"Adaptivity/Tolerance", "0"}});
   };
   double J = 0, doubt = 0;
   AdaptiveSolver<2>(scene("hpa3", 16))

@@ -36,9 +36,7 @@ struct Cell
   }
 };
 
-class DataOfStress : public ::testing::TestWithParam<unsigned int>
-{
-};
+using DataOfStress = ::testing::TestWithParam<unsigned int>;
 
 /** Data of modes times modes are those of stress and force, whatever corners are free. */
 TEST_P(DataOfStress, AreLinear)

@@ -153,8 +153,7 @@ double projected_energy(const Solution<2> &solution, const unsigned int index,
 TEST(ChangeOfVolume, IsThatOfPolynomialsOfDegreeBelowP)
 {
   const Scene<2> scene =
-      shipped_scene("han-6-12", {{"Geometry/Shape", "quadrilateral"},
-                                 {"Geometry/Corners", "1, 0; 3, 1; 2.5, 2; 0.5, 1"},
+      shipped_scene("han-6-12", {given::quadrilateral("Geometry", "1, 0; 3, 1; 2.5, 2; 0.5, 1"),
                                  {"Material/Plane", "strain"},
                                  {"Material/Poisson's ratio", "0.4999"}});
   std::mt19937 random(3);
@@ -228,10 +227,10 @@ TEST(MixedProblem, DoesNotLock)
 /** A block of 2 by 1 on a frictionless plane, E = 2 and nu = 1/4, in the plane model of default. */
 Scene<2> block(const Overrides &more)
 {
-  Overrides entries = {
-      {"Geometry/Upper corner", "2, 1"},         {"Geometry/Subdivisions", "2, 2"},
-      {"Material/Young's modulus", "2"},         {"Material/Poisson's ratio", "0.25"},
-      {"Boundary left/Displacement", "0; free"}, {"Boundary bottom/Contact", "bilateral"}};
+  Overrides entries = {given::box("2, 1", "2, 2"),
+                       given::elastic("2", "0.25"),
+                       {"Boundary left/Displacement", "0; free"},
+                       {"Boundary bottom/Contact", "bilateral"}};
   entries.insert(entries.end(), more.begin(), more.end());
   return scene_of(entries);
 }
@@ -352,9 +351,7 @@ TEST(PlaneStrain, EnergyByRaysIsThatByBoxesInPlaneStress)
   EXPECT_NEAR(energy_of_stick_slip(material, 2.7 / 1.3, 0.3), 0.37710185557, 1e-11);
 }
 
-class PlaneStrainScene : public ::testing::TestWithParam<const char *>
-{
-};
+using PlaneStrainScene = ::testing::TestWithParam<const char *>;
 
 /** |u|_a^2, j(u) and the friction force, all from E = 1, nu and g = 0.3 alone. */
 TEST_P(PlaneStrainScene, HasTheEnergiesOfTheClosedForm)

@@ -17,11 +17,11 @@ using Amounts = std::array<double, 3>;
 /** A skew body whose right side is glued to a plate: what each motion of it is given. */
 Overrides skew(const Overrides &plate)
 {
-  Overrides entries = {
-      {"Geometry/Shape", "quadrilateral"},    {"Geometry/Corners", "0, 0; 4, 1; 3.2, 3; -0.5, 2"},
-      {"Geometry/Subdivisions", "3, 2"},      {"Material/Young's modulus", "10"},
-      {"Boundary left/Displacement", "0; 0"}, {"Boundary top/Pressure", "0.1*x"},
-      {"Boundary right/Rigid", "true"}};
+  Overrides entries = {given::quadrilateral("Geometry", "0, 0; 4, 1; 3.2, 3; -0.5, 2", "3, 2"),
+                       {"Material/Young's modulus", "10"},
+                       {"Boundary left/Displacement", "0; 0"},
+                       {"Boundary top/Pressure", "0.1*x"},
+                       {"Boundary right/Rigid", "true"}};
   entries.insert(entries.end(), plate.begin(), plate.end());
   return entries;
 }
@@ -87,12 +87,13 @@ TEST(Plates, MoveAsOne)
  */
 TEST(Plates, OfUnequalPiecesActAtTheirMeanPoint)
 {
-  const Overrides jaw = {
-      {"Geometry/Shape", "quadrilateral"},    {"Geometry/Corners", "0, 0; 4, 1; 3.2, 3; -0.5, 2"},
-      {"Geometry/Subdivisions", "3, 4"},      {"Material/Young's modulus", "10"},
-      {"Boundary left/Displacement", "0; 0"}, {"Boundary top/Pressure", "0.1*x"},
-      {"Boundary jaw/On", "right"},           {"Boundary jaw/Where", "(y - 1.5)*(y - 2)"},
-      {"Boundary jaw/Rigid", "true"}};
+  const Overrides jaw = {given::quadrilateral("Geometry", "0, 0; 4, 1; 3.2, 3; -0.5, 2", "3, 4"),
+                         {"Material/Young's modulus", "10"},
+                         {"Boundary left/Displacement", "0; 0"},
+                         {"Boundary top/Pressure", "0.1*x"},
+                         {"Boundary jaw/On", "right"},
+                         {"Boundary jaw/Where", "(y - 1.5)*(y - 2)"},
+                         {"Boundary jaw/Rigid", "true"}};
   const auto with = [&](const Overrides &plate)
   {
     Overrides entries = jaw;
@@ -159,8 +160,7 @@ TEST(Plates, AreTheLimitOfStiffLayers)
   {
     Overrides entries = {{"Geometry/Subdivisions", "4, 4"},
                          {"Boundary bottom/Displacement", "0; 0"},
-                         {"Adaptivity/Method", "hup3"},
-                         {"Adaptivity/Maximum steps", "2"}};
+                         given::steps("hup3", "2")};
     entries.insert(entries.end(), more.begin(), more.end());
     double J = 0;
     AdaptiveSolver<2>(scene_of(entries))
@@ -168,8 +168,7 @@ TEST(Plates, AreTheLimitOfStiffLayers)
     return J;
   };
   const double rigid =
-                   energy({{"Geometry/Upper corner", "1, 0.75"},
-                           {"Geometry/Subdivisions", "4, 3"},
+                   energy({given::box("1, 0.75", "4, 3"),
                            {"Boundary top/Rigid", "true"},
                            {"Boundary top/Force", "0.5; -1"},
                            {"Boundary top/Moment", in_digits(-0.5 / 4)}}), // the lever of the layer
@@ -184,15 +183,13 @@ TEST(Plates, PushABlockUntilItSlips)
 {
   const auto push = [](const double horizontal)
   {
-    AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", "4, 1"},
-                                {"Geometry/Subdivisions", "8, 2"},
+    AdaptiveSolver<2>(scene_of({given::box("4, 1", "8, 2"),
                                 {"Material/Young's modulus", "100"},
                                 {"Boundary bottom/Contact", "unilateral"},
                                 {"Boundary bottom/Friction coefficient", "0.3"},
                                 {"Boundary top/Rigid", "true"},
                                 {"Boundary top/Force", in_digits(horizontal) + "; -10"},
-                                {"Adaptivity/Method", "hpa3"},
-                                {"Adaptivity/Maximum steps", "3"}}))
+                                given::steps("hpa3", "3")}))
         .run(
             [&](const StepReport<2> &step)
             {
@@ -235,12 +232,11 @@ Told told(const double angle, const double mirror, const double length)
     std::swap(sides[1], sides[3]);
   }
   Told result;
-  AdaptiveSolver<2>(
+  each_step<2>(
       scene_of(
-          {{"Geometry/Shape", "quadrilateral"},
-           {"Geometry/Corners",
-            corners[0] + "; " + corners[1] + "; " + corners[2] + "; " + corners[3]},
-           {"Geometry/Subdivisions", "3, 2"},
+          {given::quadrilateral(
+               "Geometry", corners[0] + "; " + corners[1] + "; " + corners[2] + "; " + corners[3],
+               "3, 2"),
            {"Material/Elasticity", "orthotropic"},
            {"Material/Young's moduli", "10, 4, 5"},
            {"Material/Poisson's ratios", "0.3, 0.2, 0.25"},
@@ -258,14 +254,12 @@ Told told(const double angle, const double mirror, const double length)
            {"Boundary " + sides[2] + "/Rigid", "true"},
            {"Boundary " + sides[2] + "/Force", pair(length * (Q * Point<2>(0.2, -0.9)), "; ")},
            {"Boundary " + sides[2] + "/Moment", in_digits(mirror * length * length * 0.1)},
-           {"Adaptivity/Method", "hpa3"},
-           {"Adaptivity/Maximum steps", "3"}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            result.J.push_back(step.energies.energy / (length * length));
-            result.bound.push_back(step.bound ? step.bound->total / length : -1.);
-          });
+           given::steps("hpa3", "3")}),
+      [&](const StepReport<2> &step)
+      {
+        result.J.push_back(step.energies.energy / (length * length));
+        result.bound.push_back(step.bound ? step.bound->total / length : -1.);
+      });
   return result;
 }
 
@@ -296,16 +290,13 @@ TEST(Weight, BendsACantileverAsTimoshenkoSays)
   for (const double length : {8., 16.})
   {
     double J = 0;
-    AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", in_digits(length) + ", 1"},
-                                {"Geometry/Subdivisions", in_digits(length) + ", 1"},
-                                {"Material/Young's modulus", "1000"},
-                                {"Material/Poisson's ratio", "0.25"},
+    AdaptiveSolver<2>(scene_of({given::box(in_digits(length) + ", 1", in_digits(length) + ", 1"),
+                                given::elastic("1000", "0.25"),
                                 {"Material/Plane", "stress"},
                                 {"Material/Density", "2"},
                                 {"Body force/Gravity", "0; -0.005"},
                                 {"Boundary left/Displacement", "0; 0"},
-                                {"Adaptivity/Method", "hpa3"},
-                                {"Adaptivity/Maximum steps", "6"}}))
+                                given::steps("hpa3", "6")}))
         .run([&](const StepReport<2> &step) { J = step.energies.energy; });
     const double w = 0.01, EI = 1000. / 12, G = 400;
     const double energy =

@@ -60,7 +60,7 @@ const Overrides held{{"Boundary left/Displacement", "0; 0"}};
 TEST(Discs, AreCutByCellsExactly)
 {
   Triangulation<2> grid;
-  mesh_of(with(held, {{"Geometry/Upper corner", "4, 4"}, {"Geometry/Subdivisions", "4, 4"}}), grid);
+  mesh_of(with(held, {given::box("4, 4", "4, 4")}), grid);
   for (const auto &[c, R] : std::vector<std::pair<Point<2>, double>>{{{2, 2}, 1},
                                                                      {{2, 2}, std::sqrt(2.)},
                                                                      {{1.5, 1.5}, 0.5},
@@ -78,22 +78,14 @@ TEST(Discs, AreCutByCellsExactly)
 TEST(Discs, AreCutBySkewAndCurvedCells)
 {
   Triangulation<2> skew, distorted, ring;
-  mesh_of(with(held, {{"Geometry/Shape", "quadrilateral"},
-                      {"Geometry/Corners", "0, 0; 4, 1; 5, 5; 1, 4"},
-                      {"Geometry/Subdivisions", "3, 4"}}),
-          skew);
-  mesh_of(with(held, {{"Geometry/Shape", "quadrilateral"},
-                      {"Geometry/Corners", "0, 0; 4, 1; 5, 6; -1, 4"},
-                      {"Geometry/Subdivisions", "3, 4"}}),
+  mesh_of(with(held, {given::quadrilateral("Geometry", "0, 0; 4, 1; 5, 5; 1, 4", "3, 4")}), skew);
+  mesh_of(with(held, {given::quadrilateral("Geometry", "0, 0; 4, 1; 5, 6; -1, 4", "3, 4")}),
           distorted);
   expect_exact(skew, {2.5, 2.5}, 1.3, 1e-13);
   expect_exact(distorted, {2.2, 2.9}, 1.4, 1e-12);
-  mesh_of({{"Geometry/Shape", "ring sector"},
-           {"Geometry/Radii", "1, 3"},
-           {"Geometry/Angles", "0, 180"},
-           {"Geometry/Subdivisions", "2, 4"},
-           {"Boundary start/Displacement", "0; 0"}},
-          ring);
+  mesh_of(
+      {given::ring("Geometry", "1, 3", "0, 180", "2, 4"), {"Boundary start/Displacement", "0; 0"}},
+      ring);
   set_edge_degrees(ring, std::vector<unsigned int>(ring.n_active_cells(), 8));
   expect_exact(ring, {0.1, 2}, 0.9, 1e-10);
   expect_exact(ring, {1.3, 1.2}, 0.5, 1e-10);
@@ -252,8 +244,7 @@ TEST(Probes, AreCutWhereTemperaturesJump)
             ? Overrides{{"Material/Initial strain", "0; 1e-5*" + jump + "; 0"}}
             : Overrides{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", jump}};
     const Scene<2> scene =
-        scene_of(with(with(held, datum), {{"Geometry/Upper corner", "1, 1"},
-                                          {"Geometry/Subdivisions", row % 4 < 2 ? "2, 3" : "3, 1"},
+        scene_of(with(with(held, datum), {given::box("1, 1", row % 4 < 2 ? "2, 3" : "3, 1"),
                                           {"Adaptivity/Maximum steps", "1"},
                                           {"Probe disc/At", place + ", " + place},
                                           {"Probe disc/Size", in_digits(R)},
@@ -280,15 +271,13 @@ TEST(Probes, AreCutWhereTemperaturesJump)
 /** A side is itself and its parts, a part is one alone; weights are lengths. */
 TEST(Probes, GoAlongSidesAndTheirParts)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "2, 1"},
-                                   {"Geometry/Subdivisions", "4, 2"},
+  const Scene<2> scene = scene_of({given::box("2, 1", "4, 2"),
                                    {"Boundary bottom/Displacement", "0; 0"},
                                    {"Boundary seat/On", "top"},
                                    {"Boundary seat/Where", "0.5 - x"},
                                    {"Boundary seat/Displacement", "0; -0.1"},
                                    {"Boundary top/Displacement", "0; -0.1 - 0.2*(x - 0.5)"},
-                                   {"Adaptivity/Method", "hup2"},
-                                   {"Adaptivity/Maximum steps", "1"},
+                                   given::steps("hup2", "1"),
                                    {"Probe all/On", "top"},
                                    {"Probe part/On", "seat"}});
   EXPECT_EQ(scene.probes[0].on.size(), 2U);
@@ -336,8 +325,7 @@ TEST(Probes, HaveTheLastColumns)
 /** Intervals as somebody would find them. */
 TEST(Intervals, ReachTablesAndLimits)
 {
-  const Scene<2> scene = scene_of({{"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "0.1"},
+  const Scene<2> scene = scene_of({given::rough("bottom", "bilateral", "0.1"),
                                    {"Boundary left/Displacement", "0; free"},
                                    {"Boundary top/Traction", "0.2; 0"},
                                    {"Material/Thickness", "2"},
@@ -427,8 +415,7 @@ TEST(ValuesAt, AreThoseOfEachPoint)
 TEST(Extremes, HavePlaces)
 {
   const LastStep last(scene_of({{"Geometry/Upper corner", "2, 1"},
-                                {"Material/Poisson's ratio", "0"},
-                                {"Material/Young's modulus", "10"},
+                                given::elastic("10", "0"),
                                 {"Boundary left/Displacement", "0; 0"},
                                 {"Boundary right/Displacement", "0.3; -0.4"},
                                 {"Adaptivity/Maximum steps", "1"}}));

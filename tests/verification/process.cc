@@ -186,7 +186,7 @@ TEST(Threads, DoNotMeet)
   const std::vector<std::pair<std::string, Overrides>> scenes = {
       {"han-6-12", {{"Adaptivity/Maximum steps", "12"}}},
       {"stick-slip", {{"Adaptivity/Maximum steps", "12"}}},
-      {"han-6-13", {{"Adaptivity/Maximum steps", "5"}, {"Adaptivity/Method", "hup2"}}}};
+      {"han-6-13", {given::steps("hup2", "5")}}};
   std::vector<std::vector<double>> alone(scenes.size()), together(scenes.size());
   for (unsigned int k = 0; k < scenes.size(); ++k)
     alone[k] = numbers(scenes[k].first, scenes[k].second);

@@ -33,18 +33,15 @@ Outcome outcome_of(const std::string &scene, const Overrides &overrides)
   return result;
 }
 
-class QpSolvers : public ::testing::TestWithParam<const char *>
-{
-};
+using QpSolvers = ::testing::TestWithParam<const char *>;
 
 TEST_P(QpSolvers, Agree)
 {
   const auto with = [&](const std::string &solver, const std::string &warm)
   {
-    return outcome_of(GetParam(), {{"Solver/QP solver", solver},
-                                   {"Solver/QP warm start", warm},
-                                   {"Adaptivity/Method", "hpa2"},
-                                   {"Adaptivity/Maximum steps", "10"}});
+    return outcome_of(
+        GetParam(),
+        {{"Solver/QP solver", solver}, {"Solver/QP warm start", warm}, given::steps("hpa2", "10")});
   };
   const Outcome reference = with("mprgp", "false");
   for (const Outcome &other :

@@ -105,12 +105,10 @@ private:
 
 Overrides cantilever(const unsigned int length)
 {
-  return {{"Geometry/Upper corner", std::to_string(length) + ", 1"},
-          {"Geometry/Subdivisions", std::to_string(length) + ", 1"},
+  return {given::box(std::to_string(length) + ", 1", std::to_string(length) + ", 1"),
           {"Boundary left/Displacement", "0; 0"},
           {"Boundary right/Traction", "0; 1e-6"},
-          {"Adaptivity/Method", "hup2"},
-          {"Adaptivity/Maximum steps", "1"}};
+          given::steps("hup2", "1")};
 }
 
 /** The tip moves by L(u)/t on average, and L(u) = a(u,u). */
@@ -179,14 +177,12 @@ TEST(IterativeRefinement, LeavesOrdinaryBodiesAlone)
 /** A displacement spoilt at random comes back, whatever data the scene has. */
 TEST(IterativeRefinement, CorrectsASpoiltDisplacement)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                                   {"Geometry/Corners", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7"},
-                                   {"Geometry/Subdivisions", "2, 2"},
-                                   {"Body force/Expression", "x*y; 1 - x"},
-                                   {"Boundary top/Displacement", "0.05 + 0.1*x; 0.05*y"},
-                                   {"Boundary right/Traction", "1 + y; -x"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "0.1"}});
+  const Scene<2> scene =
+      scene_of({given::quadrilateral("Geometry", "0, 0; 3, 0.5; 2.5, 2; 0.2, 1.7", "2, 2"),
+                {"Body force/Expression", "x*y; 1 - x"},
+                {"Boundary top/Displacement", "0.05 + 0.1*x; 0.05*y"},
+                {"Boundary right/Traction", "1 + y; -x"},
+                given::rough("bottom", "bilateral", "0.1")});
   const RandomMesh mesh(scene, 3, 2);
   const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
@@ -309,8 +305,7 @@ TEST(FarDisplacement, OfABodyThatIsOnlyMovedIsASolution)
                            {"Boundary top/Displacement", "0.01; -0.02"},
                            {"Boundary bottom/Contact", "none"},
                            {"Boundary bottom/Friction bound", ""},
-                           {"Geometry/Upper corner", "2, 2"},
-                           {"Geometry/Subdivisions", "2, 3"},
+                           given::box("2, 2", "2, 3"),
                            {"Material/Young's modulus", "221.725"}};
   unsigned int steps = 0;
   AdaptiveSolver<2>(shipped_scene("han-6-12", moved))
@@ -343,8 +338,7 @@ TEST(Floor, NoWarningsAboutNothing)
 /** Where nothing acts there is no scale beside which an iterate is small: u is zero, not 1e-118. */
 TEST(Floor, NothingActsAndNothingMoves)
 {
-  const Overrides unloaded = {{"Geometry/Upper corner", "1.3178, 2.2672"},
-                              {"Geometry/Subdivisions", "2, 2"},
+  const Overrides unloaded = {given::box("1.3178, 2.2672", "2, 2"),
                               {"Boundary bottom/Contact", "bilateral"},
                               {"Boundary bottom/Friction coefficient", "0.11"},
                               {"Boundary right/Displacement", "0; 0"},
@@ -380,9 +374,8 @@ TEST(Floor, AnExactSolutionStopsTheRun)
 /** The run stops, not before the true error has reached its own floor. */
 TEST(Floor, IsWhereTheTrueErrorFallsNoFurther)
 {
-  const Scene<2> scene = shipped_scene("stick-slip", {{"Adaptivity/Maximum steps", "60"},
-                                                      {"Adaptivity/Method", "hpa3"},
-                                                      {"Adaptivity/Tolerance", "0"}});
+  const Scene<2> scene =
+      shipped_scene("stick-slip", {given::steps("hpa3", "60"), {"Adaptivity/Tolerance", "0"}});
   std::vector<double> errors;
   std::string stopped_by;
   AdaptiveSolver<2>(scene).run(
@@ -406,19 +399,14 @@ TEST(Floor, OfABodyUnderHeat)
     {
       double relative = 1;
       std::string stopped_by;
-      AdaptiveSolver<2>(scene_of({{"Geometry/Upper corner", "2, 1"},
-                                  {"Geometry/Subdivisions", "6, 3"},
+      AdaptiveSolver<2>(scene_of({given::box("2, 1", "6, 3"),
                                   {"Material/Plane", plane},
                                   {"Material/Thermal expansion", "1e-5"},
                                   {"Temperature/Expression", heat},
-                                  {"Boundary left/Symmetry", "true"},
-                                  {"Boundary right/Symmetry", "true"},
-                                  {"Boundary top/Symmetry", "true"},
-                                  {"Boundary bottom/Symmetry", "true"},
+                                  given::symmetric({"left", "right", "top", "bottom"}),
                                   {"Error/Bound", "false"},
-                                  {"Adaptivity/Method", "pu"},
+                                  given::steps("pu", "20"),
                                   {"Adaptivity/Maximum degree", "20"},
-                                  {"Adaptivity/Maximum steps", "20"},
                                   {"Adaptivity/Tolerance", "0"}}))
           .run(
               [&](const StepReport<2> &step)
@@ -434,12 +422,14 @@ TEST(Floor, OfABodyUnderHeat)
 /** Free expansion has no stress but the round-off of two strains; patches are in balance beside these, and there is a bound. */
 TEST(Floor, OfABodyThatExpandsFreely)
 {
-  const Overrides free{{"Geometry/Upper corner", "2, 1"}, {"Geometry/Subdivisions", "4, 1"},
-                       {"Material/Plane", "stress"},      {"Material/Thermal expansion", "12e-6"},
-                       {"Temperature/Expression", "20"},  {"Boundary left/Displacement", "0; free"},
-                       {"Adaptivity/Tolerance", "0"},     {"Boundary bottom/Symmetry", "true"}};
-  const Overrides skew{{"Geometry/Shape", "quadrilateral"},
-                       {"Geometry/Corners", "0, 0; 2, 0; 1.6, 1; 0, 0.8"},
+  const Overrides free{given::box("2, 1", "4, 1"),
+                       {"Material/Plane", "stress"},
+                       {"Material/Thermal expansion", "12e-6"},
+                       {"Temperature/Expression", "20"},
+                       {"Boundary left/Displacement", "0; free"},
+                       {"Adaptivity/Tolerance", "0"},
+                       {"Boundary bottom/Symmetry", "true"}};
+  const Overrides skew{given::quadrilateral("Geometry", "0, 0; 2, 0; 1.6, 1; 0, 0.8"),
                        {"Error/Bound on distorted cells", "true"}};
   for (const auto &[name, others] : std::vector<std::pair<std::string, Overrides>>{
            {"as it is", {}},

@@ -257,6 +257,8 @@ TEST(SceneByCode, PutsMaterialsWhereItSays)
 
 // ---------------------------------------------------------------- wrong scenes
 
+// What files may have wrong, too, is in tests/bad_input: here is what only code can do, and a row of each check.
+
 struct Mistake
 {
   std::string words; ///< how the message goes on after "scene: "
@@ -268,27 +270,21 @@ void PrintTo(const Mistake &mistake, std::ostream *out)
   *out << mistake.words;
 }
 
-class WrongScene : public ::testing::TestWithParam<Mistake>
-{
-};
+using WrongScene = ::testing::TestWithParam<Mistake>;
 
 TEST_P(WrongScene, IsRefused)
 {
   Scene<2> scene = pushed_block();
   ASSERT_NO_THROW(check(scene));
-  try
-  {
-    GetParam().make(scene);
-    check(scene);
-    ADD_FAILURE() << "is accepted";
-  }
-  catch (const InputError &error)
-  {
-    const std::string message = error.what();
-    EXPECT_EQ(message.rfind("scene: " + GetParam().words, 0), 0U) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos);
-    EXPECT_NE(message.find("; "), std::string::npos) << "no remedy: " << message;
-  }
+  const std::string message = failure_of<InputError>(
+      [&]
+      {
+        GetParam().make(scene);
+        check(scene);
+      });
+  EXPECT_EQ(message.rfind("scene: " + GetParam().words, 0), 0U) << message;
+  EXPECT_FALSE(says(message, "\n"));
+  EXPECT_TRUE(says(message, "; ")) << "no remedy: " << message;
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -298,10 +294,6 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"Material/Young's modulus = -15: is not accepted here; give a number E > 0",
                 [](Scene<2> &s) { s.materials[0].young = -15; }},
-        Mistake{"Material/Young's modulus = nan: is not accepted here",
-                [](Scene<2> &s) { s.materials[0].young = nan; }},
-        Mistake{"Material/Poisson's ratio = 0.5: is outside (-1, 1/2)",
-                [](Scene<2> &s) { s.materials[0].poisson = 0.5; }},
         Mistake{"Material/Young's modulus = 0: is not accepted here",
                 [](Scene<2> &s)
                 {
@@ -333,24 +325,13 @@ INSTANTIATE_TEST_SUITE_P(
                 { s.geometry.corners = box_corners(Point<2>(), Point<2>(1e-200, 1e-200)); }},
         Mistake{"Geometry/Subdivisions = 4, 0: makes no cells",
                 [](Scene<2> &s) { s.geometry.subdivisions[1] = 0; }},
-        Mistake{"Geometry/Subdivisions = 9999, 9999: makes more than a million cells",
-                [](Scene<2> &s) {
-                  s.geometry.subdivisions = {{9999, 9999}};
-                }},
-        Mistake{"Geometry/Subdivisions: makes at least 1620899 free unknowns",
-                [](Scene<2> &s) {
-                  s.geometry.subdivisions = {{300, 300}};
-                }},
         Mistake{"Geometry/Grading levels: has no point to grade to",
                 [](Scene<2> &s) { s.geometry.grading_levels = 2; }},
-        Mistake{"Geometry/Grading levels = 41: is not accepted here",
-                [](Scene<2> &s)
+        Mistake{"Geometry/Grading levels = 41: is not accepted here", [](Scene<2> &s)
                 {
                   s.geometry.graded_towards = {Point<2>(0, 0)};
                   s.geometry.grading_levels = 41;
-                }},
-        Mistake{"Geometry/Graded towards: has the point (5, 0) outside the body",
-                [](Scene<2> &s) { s.geometry.graded_towards = {Point<2>(5, 0)}; }}));
+                }}));
 
 INSTANTIATE_TEST_SUITE_P(
     Boundary, WrongScene,
@@ -360,39 +341,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"Boundary: has 3 instead of 4", [](Scene<2> &s) { s.boundaries.pop_back(); }},
         Mistake{"Boundary left: has the id 1 and stands at 0",
                 [](Scene<2> &s) { s.boundary("left").id = 1; }},
-        Mistake{"Boundary top/Friction bound: needs contact",
-                [](Scene<2> &s) { s.boundary("top").friction.bound = expression<2>(1.); }},
-        Mistake{"Boundary bottom/Friction bound: is -1 at (0, 0)",
-                [](Scene<2> &s) { s.boundary("bottom").friction.bound = expression<2>(-1.); }},
-        Mistake{"Boundary bottom/Friction bound: is nan at (0, 0)",
-                [](Scene<2> &s) { s.boundary("bottom").friction.bound = expression<2>(nan); }},
-        Mistake{"Boundary bottom/Displacement: stands beside Contact = bilateral",
-                [](Scene<2> &s) { s.boundary("bottom").displacement[0] = expression<2>(0.); }},
-        Mistake{"Boundary bottom/Displacement: stands beside Contact = unilateral",
-                [](Scene<2> &s)
-                {
-                  s.boundary("bottom").contact = Contact::unilateral;
-                  s.boundary("bottom").displacement[0] = expression<2>(0.);
-                }},
         Mistake{"Boundary right/Traction: acts on the component x that Displacement prescribes",
                 [](Scene<2> &s) { s.boundary("right").traction[0] = expression<2>(1.); }},
-        Mistake{"Boundary right/Displacement: contradicts Boundary bottom/Contact at their corner "
-                "(4, 0) by 0.1",
-                [](Scene<2> &s) { s.boundary("right").displacement[1] = expression<2>(0.1); }},
-        Mistake{
-            "Boundary right/Displacement: contradicts Boundary top/Displacement at their corner",
-            [](Scene<2> &s) { s.boundary("top").displacement[1] = expression<2>(1.); }},
-        Mistake{"Boundary left/Traction: is not finite at (0, 0)",
-                [](Scene<2> &s) {
-                  s.boundary("left").traction[0] =
-                      expression<2>([](const Point<2> &x) { return 1 / x[1]; });
-                }},
-        Mistake{"Boundary left/Traction: has a component of magnitude 1e+200",
-                [](Scene<2> &s) { s.boundary("left").traction[0] = expression<2>(1e200); }},
-        Mistake{"Body force/Expression: is not finite at (2, 0)",
-                [](Scene<2> &s) {
-                  s.body_force[1] = expression<2>([](const Point<2> &x) { return 1 / (x[0] - 2); });
-                }},
         Mistake{"Boundary left, right, bottom, top/Displacement: the supports leave a rigid-body "
                 "motion free, translation in x, and no friction resists it",
                 [](Scene<2> &s)
@@ -423,86 +373,20 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"Boundary bottom/Gap: needs contact that can open; set Contact = unilateral",
                 [](Scene<2> &s) { s.boundary("bottom").gap = expression<2>(0.); }},
-        Mistake{"Boundary top/Gap: needs contact that can open; set Contact = unilateral",
-                [](Scene<2> &s) { s.boundary("top").gap = expression<2>(0.1); }},
-        gap("Boundary bottom/Gap: is not finite at (0, 0)",
-            [](const Point<2> &x) { return 1 / x[0]; }),
-        gap("Boundary bottom/Gap: has a component of magnitude 1e+200",
-            [](const Point<2> &x) { return 1e200 * (4 - x[0]) / 4; }),
-        gap("Boundary bottom/Gap: has a component of magnitude 1e-200",
-            [](const Point<2> &) { return 1e-200; }),
         gap("Boundary right/Displacement: contradicts Boundary bottom/Gap at their corner (4, 0), "
             "for u_n exceeds the gap by 0.25",
-            [](const Point<2> &x) { return (3.5 - x[0]) / 2; }),
-        unilateral("Boundary right/Displacement: contradicts Boundary bottom/Contact = unilateral "
-                   "at their corner (4, 0), for u_n exceeds the gap by 0.1",
-                   [](Scene<2> &s)
-                   { s.boundary("right").displacement[1] = expression<2>(-0.1); })));
-
-INSTANTIATE_TEST_SUITE_P(
-    Tangential, WrongScene,
-    ::testing::Values(Mistake{"Boundary bottom/Contact = tangential: has friction nowhere to act",
-                              [](Scene<2> &s)
-                              {
-                                s.boundary("bottom").contact = Contact::tangential;
-                                s.boundary("bottom").friction = {};
-                              }},
-                      Mistake{"Boundary bottom/Contact = tangential: has friction nowhere to act",
-                              [](Scene<2> &s)
-                              {
-                                s.boundary("bottom").contact = Contact::tangential;
-                                s.boundary("bottom").friction.bound = expression<2>(0.);
-                              }}));
+            [](const Point<2> &x) { return (3.5 - x[0]) / 2; })));
 
 INSTANTIATE_TEST_SUITE_P(
     Method, WrongScene,
     ::testing::Values(
         Mistake{"Adaptivity/Start degree = 0: is no degree",
                 [](Scene<2> &s) { s.adaptivity.start_degree = 0; }},
-        Mistake{"Adaptivity/Start degree = 1: is too low for contact",
-                [](Scene<2> &s) { s.adaptivity.start_degree = 1; }},
-        unilateral("Adaptivity/Start degree = 1: is too low for contact",
-                   [](Scene<2> &s)
-                   {
-                     s.boundary("bottom").friction = {};
-                     s.solver.normal_contact = NormalContact::multiplier;
-                     s.adaptivity.start_degree = 1;
-                   }),
-        unilateral("Solver/Multiplier degree offset = 0: makes S singular",
-                   [](Scene<2> &s)
-                   {
-                     s.boundary("bottom").friction = {};
-                     s.solver.normal_contact = NormalContact::multiplier;
-                     s.solver.multiplier_offset = 0;
-                   }),
-        Mistake{"Adaptivity/Start degree = 13: exceeds Maximum degree = 12",
-                [](Scene<2> &s) { s.adaptivity.start_degree = 13; }},
         Mistake{
             "Adaptivity/Maximum degree = 21: is not accepted here; give an integer from 1 to 20",
             [](Scene<2> &s) { s.adaptivity.maximum_degree = 21; }},
         Mistake{"Adaptivity/hap threshold = 0: is not accepted here",
-                [](Scene<2> &s) { s.adaptivity.hap_threshold = 0; }},
-        Mistake{"Adaptivity/hpa2 marked fraction = 1.5: is not accepted here",
-                [](Scene<2> &s) { s.adaptivity.hpa2_marked = 1.5; }},
-        Mistake{"Adaptivity/hpa1 raised fraction = 0.7: makes more than all cells with hpa1 "
-                "bisected fraction = 0.4",
-                [](Scene<2> &s)
-                {
-                  s.adaptivity.hpa1_bisected = 0.4;
-                  s.adaptivity.hpa1_raised = 0.7;
-                }},
-        Mistake{"Adaptivity/Maximum steps = 0: is not accepted here",
-                [](Scene<2> &s) { s.adaptivity.maximum_steps = 0; }},
-        Mistake{"Adaptivity/Tolerance = -1: is not accepted here",
-                [](Scene<2> &s) { s.adaptivity.tolerance = -1; }},
-        Mistake{"Adaptivity/Maximum seconds = nan: is not accepted here",
-                [](Scene<2> &s) { s.adaptivity.maximum_seconds = nan; }},
-        Mistake{"Solver/QP tolerance = 0: is not accepted here",
-                [](Scene<2> &s) { s.solver.qp_tolerance = 0; }},
-        Mistake{"Solver/Multiplier degree offset = -21: is not accepted here",
-                [](Scene<2> &s) { s.solver.multiplier_offset = -21; }},
-        Mistake{"Solver/Multiplier degree offset = 0: makes S singular",
-                [](Scene<2> &s) { s.solver.multiplier_offset = 0; }}));
+                [](Scene<2> &s) { s.adaptivity.hap_threshold = 0; }}));
 
 INSTANTIATE_TEST_SUITE_P(
     Errors, WrongScene,
@@ -514,19 +398,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             "Boundary left/Traction: contradicts Exact solution/Solution at (0, 0); write exact",
             [](Scene<2> &s)
-            { s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.); }},
-        Mistake{"Body force/Expression: contradicts Exact solution/Solution",
-                [](Scene<2> &s)
-                {
-                  s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.);
-                  s.body_force[0] = expression<2>(1.);
-                }},
-        Mistake{"Exact solution/Solution: knows one material, and the scene has 2", [](Scene<2> &s)
-                {
-                  s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.);
-                  s.materials.resize(2);
-                  s.material_at = [](const Point<2> &) { return 0; };
-                }}));
+            { s.exact_solution = std::make_shared<StickSlip>(s.materials[0], 4.5, 2., 1.); }}));
 
 // ---------------------------------------------------------------- contact that opens
 
@@ -567,9 +439,7 @@ TEST(NormalContactOf, AScene)
 {
   using Kind = NormalContact;
   const Overrides opens = {{"Boundary bottom/Contact", "unilateral"}},
-                  coulomb = {{"Boundary bottom/Contact", "unilateral"},
-                             {"Boundary bottom/Friction bound", ""},
-                             {"Boundary bottom/Friction coefficient", "0.3"}},
+                  coulomb = {{"Boundary bottom/Contact", "unilateral"}, given::coulomb("0.3")},
                   primal = {{"Boundary bottom/Contact", "unilateral"},
                             {"Solver/Path", "primal"},
                             {"Adaptivity/Method", "hap2"}},
@@ -673,15 +543,7 @@ TEST(SceneByCode, IsComparedWithHertzsContact)
     scene.parameters = nullptr;
     check(scene);
     make(scene);
-    try
-    {
-      check(scene);
-      return std::string("accepted");
-    }
-    catch (const InputError &error)
-    {
-      return std::string(error.what());
-    }
+    return failure_of<InputError>([&] { check(scene); });
   };
   const auto bottom = [](Scene<2> &s) -> BoundaryCondition<2> & { return s.boundary("bottom"); };
   const auto starts = [](const std::string &text, const std::string &words)
@@ -726,16 +588,8 @@ TEST(SceneByCode, IsRefusedWhereItsBoundIsNegative)
     scene.boundary("bottom").friction.bound = expression<2>(
         [=](const Point<2> &x) { return std::abs(x[0] - gauss_point) < 1e-9 ? wrong : 4.5; });
     ASSERT_NO_THROW(check(scene));
-    try
-    {
-      AdaptiveSolver<2>(scene).run([](const StepReport<2> &) {});
-      ADD_FAILURE() << "is accepted";
-    }
-    catch (const InputError &error)
-    {
-      EXPECT_EQ(std::string(error.what()).rfind("Boundary bottom/Friction bound: is ", 0), 0U)
-          << error.what();
-    }
+    const std::string message = failure_of<InputError>([&] { failure_of(scene); });
+    EXPECT_EQ(message.rfind("Boundary bottom/Friction bound: is ", 0), 0U) << message;
   }
 }
 } // namespace

@@ -13,26 +13,20 @@ using namespace verification;
 Overrides parallelogram(const double angle, const std::string &subdivisions)
 {
   const double c = std::cos(angle * numbers::PI / 180), s = std::sin(angle * numbers::PI / 180);
-  return {{"Geometry/Shape", "quadrilateral"},
-          {"Geometry/Corners", "0, 0; 2, 0; " + in_digits(2 + c) + ", " + in_digits(s) + "; " +
-                                   in_digits(c) + ", " + in_digits(s)},
-          {"Geometry/Subdivisions", subdivisions},
-          {"Material/Young's modulus", "10"},
-          {"Material/Poisson's ratio", "0.3"},
-          {"Adaptivity/Method", "hup2"},
-          {"Adaptivity/Maximum steps", "1"}};
+  return {given::quadrilateral("Geometry",
+                               "0, 0; 2, 0; " + in_digits(2 + c) + ", " + in_digits(s) + "; " +
+                                   in_digits(c) + ", " + in_digits(s),
+                               subdivisions),
+          given::elastic("10", "0.3"), given::steps("hup2", "1")};
 }
 
 const Overrides held_right = {{"Boundary right/Displacement", "0; 0"}};
 
 /** Each way of holding an edge beside a slanted one, and slanted edges themselves. */
 const std::vector<Overrides> supports = {
-    held_right + Overrides{{"Boundary bottom/Contact", "bilateral"},
-                           {"Boundary bottom/Friction bound", "0.02"}},
-    held_right + Overrides{{"Boundary bottom/Contact", "unilateral"},
-                           {"Boundary bottom/Friction bound", "0.02"}},
-    held_right + Overrides{{"Boundary bottom/Contact", "tangential"},
-                           {"Boundary bottom/Friction bound", "0.02"}},
+    held_right + Overrides{given::rough("bottom", "bilateral", "0.02")},
+    held_right + Overrides{given::rough("bottom", "unilateral", "0.02")},
+    held_right + Overrides{given::rough("bottom", "tangential", "0.02")},
     held_right + Overrides{{"Boundary bottom/Displacement", "free; 0"}},
     held_right + Overrides{{"Boundary bottom/Displacement", "0; free"}},
     {{"Boundary bottom/Displacement", "free; 0"}, {"Boundary right/Displacement", "0; free"}},
@@ -42,9 +36,7 @@ const std::vector<Overrides> supports = {
     {{"Boundary bottom/Displacement", "0; 0"},
      {"Boundary right/Displacement", "0; free"},
      {"Boundary right/Traction", "0; 0.05*cos(3*y)"}},
-    {{"Boundary bottom/Displacement", "free; 0"},
-     {"Boundary right/Contact", "bilateral"},
-     {"Boundary right/Friction bound", "0.02"}},
+    {{"Boundary bottom/Displacement", "free; 0"}, given::rough("right", "bilateral", "0.02")},
     {{"Boundary bottom/Displacement", "0; 0"}}};
 
 /** Tractions of a polynomial, of none, and of one that jumps inside a cell. */
@@ -129,24 +121,21 @@ TEST(SkewBound, IsAboveTheErrorAndNear)
       const Overrides entries = parallelogram(angle, "4, 2") + supports[turn % supports.size()] +
                                 Overrides{{"Boundary top/Traction", loads[load]}};
       const ReferenceFile reference(
-          scene_of(entries + Overrides{{"Adaptivity/Method", "hpa2"},
-                                       {"Adaptivity/Maximum steps", "40"},
-                                       {"Adaptivity/Maximum unknowns", "2000"}}));
+          scene_of(entries +
+                   Overrides{given::steps("hpa2", "40"), {"Adaptivity/Maximum unknowns", "2000"}}));
       for (unsigned int p = 2; p <= 5; ++p)
-        AdaptiveSolver<2>(
-            scene_of(entries + Overrides{{"Adaptivity/Start degree", std::to_string(p)},
-                                         {"Error/Reference solution", reference.path}}))
-            .run(
-                [&](const StepReport<2> &step)
-                {
-                  SCOPED_TRACE(in_digits(angle) + ", support " +
-                               std::to_string(turn % supports.size()) + ", " + loads[load] +
-                               ", p = " + std::to_string(p));
-                  ASSERT_TRUE(step.bound) << step.no_bound;
-                  EXPECT_GE(step.bound->total, step.errors.energy);
-                  EXPECT_LE(step.bound->total,
-                            3 * step.errors.energy + 2 * step.bound->oscillation);
-                });
+        each_step<2>(scene_of(entries + Overrides{{"Adaptivity/Start degree", std::to_string(p)},
+                                                  {"Error/Reference solution", reference.path}}),
+                     [&](const StepReport<2> &step)
+                     {
+                       SCOPED_TRACE(in_digits(angle) + ", support " +
+                                    std::to_string(turn % supports.size()) + ", " + loads[load] +
+                                    ", p = " + std::to_string(p));
+                       ASSERT_TRUE(step.bound) << step.no_bound;
+                       EXPECT_GE(step.bound->total, step.errors.energy);
+                       EXPECT_LE(step.bound->total,
+                                 3 * step.errors.energy + 2 * step.bound->oscillation);
+                     });
     }
 }
 } // namespace

@@ -16,17 +16,13 @@ double deflection(const double k)
 {
   const double force = 1e-3;
   double result = 0;
-  AdaptiveSolver<2>(scene_of({{"Geometry/Lower corner", "-60, 0"},
-                              {"Geometry/Upper corner", "60, 1"},
-                              {"Geometry/Subdivisions", "60, 1"},
-                              {"Material/Young's modulus", "12"},
-                              {"Material/Poisson's ratio", "0"},
+  AdaptiveSolver<2>(scene_of({given::box("-60, 0", "60, 1", "60, 1"),
+                              given::elastic("12", "0"),
                               {"Material/Plane", "stress"},
                               {"Boundary bottom/Spring", std::to_string(k) + "; 0"},
                               {"Boundary left/Displacement", "0; free"},
                               {"Boundary top/Traction", "0; -0.001*(abs(x) < 0.5)"},
-                              {"Adaptivity/Method", "hup4"},
-                              {"Adaptivity/Maximum steps", "1"}}))
+                              given::steps("hup4", "1")}))
       .run([&](const StepReport<2> &step) { result = -2 * step.energies.energy / force; });
   return result;
 }
@@ -44,10 +40,9 @@ TEST(Springs, BendABeamAsHetenyiSays)
   EXPECT_LT(errors[1], 0.3 * errors[0]); // shear counts as (lambda h)^2: a quarter
 }
 
-const Overrides punched = {{"Geometry/Upper corner", "4, 2"},  {"Geometry/Subdivisions", "4, 2"},
-                           {"Material/Young's modulus", "10"}, {"Boundary top/Pressure", "1 + x"},
-                           {"Boundary left/Symmetry", "true"}, {"Boundary right/Spring", "2; 1"},
-                           {"Adaptivity/Tolerance", "0"}};
+const Overrides punched = {given::box("4, 2", "4, 2"),         {"Material/Young's modulus", "10"},
+                           {"Boundary top/Pressure", "1 + x"}, {"Boundary left/Symmetry", "true"},
+                           {"Boundary right/Spring", "2; 1"},  {"Adaptivity/Tolerance", "0"}};
 
 Scene<2> variant(const unsigned int number, const std::string &method, const unsigned int steps)
 {
@@ -55,12 +50,11 @@ Scene<2> variant(const unsigned int number, const std::string &method, const uns
       {{"Boundary bottom/Spring", "5; 3"}},
       {{"Boundary bottom/Spring", "5 + x^2; 1 + x"}},
       {{"Boundary bottom/Spring", "1e4; 0"}},
-      {{"Boundary bottom/Contact", "unilateral"}, {"Boundary bottom/Friction bound", "0.3"}},
+      {given::rough("bottom", "unilateral", "0.3")},
       {{"Boundary bottom/Spring", "5; 3"}, {"Material/Poisson's ratio", "0.499"}},
       {{"Boundary bottom/Spring", "5; 3"}, {"Boundary bottom/Displacement", "free; 0.02*x^3"}},
       {{"Boundary bottom/Spring", "5; 3"},
-       {"Geometry/Shape", "quadrilateral"},
-       {"Geometry/Corners", "0, 0; 4, 1; 3.5, 3; -0.5, 2"}},
+       given::quadrilateral("Geometry", "0, 0; 4, 1; 3.5, 3; -0.5, 2")},
       {{"Boundary bottom/Displacement", "0; 0"},
        {"Boundary top/Pressure", ""},
        {"Boundary top/Rigid", "true"},
@@ -85,8 +79,7 @@ Scene<2> variant(const unsigned int number, const std::string &method, const uns
        {"Boundary punch/Force", "1; -8"},
        {"Boundary punch/Moment", "0.5"},
        {"Material/Poisson's ratio", "0.499"}},
-      {{"Boundary bottom/Contact", "unilateral"},
-       {"Boundary bottom/Friction bound", "0.3"},
+      {given::rough("bottom", "unilateral", "0.3"),
        {"Boundary top/Pressure", ""},
        {"Boundary punch/On", "top"},
        {"Boundary punch/Where", "(x - 1)*(2.5 - x)"},
@@ -95,13 +88,11 @@ Scene<2> variant(const unsigned int number, const std::string &method, const uns
       {{"Boundary bottom/Displacement", "0; 0"},
        {"Material/Thermal expansion", "0.01"},
        {"Temperature/Expression", "5*exp(x*y/4)"}},
-      {{"Boundary bottom/Contact", "unilateral"},
-       {"Boundary bottom/Friction bound", "0.3"},
+      {given::rough("bottom", "unilateral", "0.3"),
        {"Material/Initial strain", "0.05*x; 0.02*y^2; 0.03*sin(x + y); 0.1*x"},
        {"Material/Poisson's ratio", "0.45"}},
       {{"Boundary bottom/Spring", "5; 3"},
-       {"Geometry/Shape", "quadrilateral"},
-       {"Geometry/Corners", "0, 0; 4, 1; 3, 3; -0.5, 2"},
+       given::quadrilateral("Geometry", "0, 0; 4, 1; 3, 3; -0.5, 2"),
        {"Error/Bound on distorted cells", "true"},
        {"Material/Thermal expansion", "0.01"},
        {"Temperature/Expression", "5*exp(x*y/4)"}},
@@ -136,9 +127,7 @@ double largest_indicator(const unsigned int number)
   }
 }
 
-class SupportBound : public ::testing::TestWithParam<unsigned int>
-{
-};
+using SupportBound = ::testing::TestWithParam<unsigned int>;
 
 /** The energy of a finer run lies in each interval, and the bound is above the error and near it. */
 TEST_P(SupportBound, HoldsAndIsNear)

@@ -62,35 +62,21 @@ TEST(Locking, LowDegreesLockAndHighOnesDoNot)
     return error_near_incompressibility("0.499999", overrides) /
            error_near_incompressibility("0.3", overrides);
   };
-  const auto uniform = [](const std::string &p)
-  {
-    return Overrides{{"Adaptivity/Method", "hup2"},
-                     {"Adaptivity/Start degree", p},
-                     {"Adaptivity/Maximum steps", "3"}};
-  };
+  const auto uniform = [](const std::string &p) { return Overrides{given::steps("hup2", "3", p)}; };
   EXPECT_GT(factor(uniform("2")), 20.);
   EXPECT_LT(factor(uniform("4")), 2.);
   EXPECT_LT(factor(uniform("8")), 2.);
-  EXPECT_LT(factor({{"Adaptivity/Method", "pu"},
-                    {"Adaptivity/Start degree", "10"},
-                    {"Adaptivity/Maximum steps", "1"},
-                    {"Geometry/Graded towards", "0, 0"},
-                    {"Geometry/Grading levels", "9"}}),
-            2.);
+  EXPECT_LT(factor({given::steps("pu", "1", "10"), given::graded("Geometry", "0, 0", "9")}), 2.);
 }
 
 // ---------------------------------------------------------------- 3, 12, 15 high degrees
 
-class UniformP : public ::testing::TestWithParam<const char *>
-{
-};
+using UniformP = ::testing::TestWithParam<const char *>;
 
 TEST_P(UniformP, IsCleanToDegreeFourteen)
 {
-  const auto rows = rows_of(GetParam(), {{"Adaptivity/Method", "pu"},
-                                         {"Adaptivity/Start degree", "2"},
+  const auto rows = rows_of(GetParam(), {given::steps("pu", "13", "2"),
                                          {"Adaptivity/Maximum degree", "14"},
-                                         {"Adaptivity/Maximum steps", "13"},
                                          {"Solver/Condition number", "true"}});
   ASSERT_EQ(rows.size(), 13U);
   for (unsigned int k = 0; k < rows.size(); ++k)
@@ -109,10 +95,8 @@ INSTANTIATE_TEST_SUITE_P(, UniformP, ::testing::Values("han-6-12", "han-6-13"));
 
 TEST(Effectivity, GrowsNoFasterThanTheDegree)
 {
-  const auto rows = rows_of("stick-slip", {{"Adaptivity/Method", "pu"},
-                                           {"Adaptivity/Start degree", "2"},
-                                           {"Adaptivity/Maximum degree", "12"},
-                                           {"Adaptivity/Maximum steps", "11"}});
+  const auto rows =
+      rows_of("stick-slip", {given::steps("pu", "11", "2"), {"Adaptivity/Maximum degree", "12"}});
   const double first = rows.front().scaled_estimate / rows.front().error;
   for (const Row &row : rows)
     EXPECT_LE(row.scaled_estimate / row.error, first * row.p / 2.) << row.p;
@@ -149,9 +133,8 @@ TEST(TransitionInsideAnEdge, ErrorFallsInEveryStep)
   for (const std::string method : {"hpa2", "hpa3"})
     for (const std::string transition : {"0.1", "0.314159265358979"})
     {
-      const auto rows = rows_of("stick-slip", {{"Adaptivity/Method", method},
-                                               {"Exact solution/Transition", transition},
-                                               {"Adaptivity/Maximum steps", "14"}});
+      const auto rows = rows_of(
+          "stick-slip", {given::steps(method, "14"), {"Exact solution/Transition", transition}});
       for (unsigned int k = 1; k < rows.size(); ++k)
         EXPECT_LT(rows[k].error, rows[k - 1].error) << method << ", step " << k + 1;
     }
@@ -164,11 +147,8 @@ TEST(DeepMeshes, SameEnergyAtAnyDepth)
 {
   const auto energy = [](const std::string &levels, const std::string &solver)
   {
-    const Row row = rows_of("han-6-12", {{"Adaptivity/Method", "pu"},
-                                         {"Adaptivity/Start degree", "5"},
-                                         {"Adaptivity/Maximum steps", "1"},
-                                         {"Geometry/Graded towards", "0.99022, 0"},
-                                         {"Geometry/Grading levels", levels},
+    const Row row = rows_of("han-6-12", {given::steps("pu", "1", "5"),
+                                         given::graded("Geometry", "0.99022, 0", levels),
                                          {"Solver/QP solver", solver}})
                         .back();
     EXPECT_LE(row.qp.projected_gradient, 1e-12);
@@ -187,8 +167,7 @@ TEST(Conditioning, ScalingAndTheStepBeforeKeepProductsFew)
   const auto most_products = [](const std::string &scaling, const std::string &warm)
   {
     unsigned int most = 0;
-    for (const Row &row : rows_of("han-6-12", {{"Adaptivity/Method", "hpa2"},
-                                               {"Adaptivity/Maximum steps", "16"},
+    for (const Row &row : rows_of("han-6-12", {given::steps("hpa2", "16"),
                                                {"Solver/QP solver", "mprgp"},
                                                {"Solver/Diagonal scaling", scaling},
                                                {"Solver/QP warm start", warm}}))
@@ -207,13 +186,12 @@ TEST(Conditioning, DoesNotDependOnTheBound)
   const auto last = [](const std::string &bound)
   {
     std::pair<double, double> result;
-    AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "1"},
-                                                 {"Solver/Condition number", "true"},
-                                                 {"Boundary bottom/Friction bound", bound}}))
-        .run(
-            [&](const StepReport<2> &step) {
-              result = {step.reduced->condition_raw, step.reduced->condition_scaled};
-            });
+    each_step<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "1"},
+                                            {"Solver/Condition number", "true"},
+                                            {"Boundary bottom/Friction bound", bound}}),
+                 [&](const StepReport<2> &step) {
+                   result = {step.reduced->condition_raw, step.reduced->condition_scaled};
+                 });
     return result;
   };
   const auto even = last("4.5"), uneven = last("if(x < 2, 4.5, 0.045)");
@@ -227,15 +205,13 @@ TEST(CoarseMeshes, DoNotChangeTheLimit)
   const auto lagrangian = [](const std::string &subdivisions, const Overrides &shape)
   {
     return rows_of("han-6-13", shape + Overrides{{"Geometry/Subdivisions", subdivisions},
-                                                 {"Adaptivity/Method", "hpa2"},
-                                                 {"Adaptivity/Maximum steps", "60"},
+                                                 given::steps("hpa2", "60"),
                                                  {"Adaptivity/Maximum unknowns", "25000"}})
         .back()
         .energies.lagrangian;
   };
   EXPECT_NEAR(lagrangian("4, 1", {}), lagrangian("16, 1", {}), 1e-6);
-  const Overrides parallelogram = {{"Geometry/Shape", "quadrilateral"},
-                                   {"Geometry/Corners", "0, 0; 10, 0; 13, 2; 3, 2"}};
+  const Overrides parallelogram = {given::quadrilateral("Geometry", "0, 0; 10, 0; 13, 2; 3, 2")};
   EXPECT_NEAR(lagrangian("4, 1", parallelogram), lagrangian("16, 1", parallelogram), 1e-3);
 }
 

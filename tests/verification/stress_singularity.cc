@@ -57,33 +57,33 @@ TEST(GrowingPeaks, HaveRingsThatGrowInwards)
     std::vector<double> rings; ///< the largest stress in each, the innermost first
     bool grows;
   };
-  AdaptiveSolver<2>(scene_of({{"Geometry/Subdivisions", "2, 2"},
-                              {"Boundary left/Displacement", "0; 0"},
-                              {"Boundary right/Traction", "1; 0"},
-                              {"Adaptivity/Maximum steps", "1"}}))
-      .run(
-          [](const StepReport<2> &step)
+  each_step<2>(
+      scene_of({{"Geometry/Subdivisions", "2, 2"},
+                {"Boundary left/Displacement", "0; 0"},
+                {"Boundary right/Traction", "1; 0"},
+                {"Adaptivity/Maximum steps", "1"}}),
+      [](const StepReport<2> &step)
+      {
+        const Sample peak{2, 8., Point<2>(0.501, 0), 0.01};
+        for (const Row &row : {Row{{8, 4, 2, 1}, true}, Row{{1.76, 1.45, 1.2, 1}, true},
+                               Row{{1.51, 1.32, 1.16, 1}, false}, // 14 % at the vertex
+                               Row{{1.51, 1.31, 1.14, 1}, false}, // and farthest away
+                               Row{{2.8, 2.3, 1.6, 1}, false},    // rounder the nearer it is
+                               Row{{8, 4, 0, 1}, false}, Row{{8, 4, 2, 0}, false},
+                               Row{{9, 4, 2, 1}, false}}) // of a peak beside it
+        {
+          std::vector<Sample> samples;
+          for (unsigned int k = 0; k < 4; ++k)
           {
-            const Sample peak{2, 8., Point<2>(0.501, 0), 0.01};
-            for (const Row &row : {Row{{8, 4, 2, 1}, true}, Row{{1.76, 1.45, 1.2, 1}, true},
-                                   Row{{1.51, 1.32, 1.16, 1}, false}, // 14 % at the vertex
-                                   Row{{1.51, 1.31, 1.14, 1}, false}, // and farthest away
-                                   Row{{2.8, 2.3, 1.6, 1}, false},    // rounder the nearer it is
-                                   Row{{8, 4, 0, 1}, false}, Row{{8, 4, 2, 0}, false},
-                                   Row{{9, 4, 2, 1}, false}}) // of a peak beside it
-            {
-              std::vector<Sample> samples;
-              for (unsigned int k = 0; k < 4; ++k)
-              {
-                const double radius = 0.0075 * (1U << k);
-                samples.push_back({2, row.rings[k], Point<2>(0.5 + radius, 0), 0.01});
-                samples.push_back({2, 0.9 * row.rings[k], Point<2>(0.5 - radius, 0), 0.01});
-                samples.push_back({1, 99., Point<2>(0.5, radius), 0.01});
-              }
-              EXPECT_EQ(extrema_of_rings({peak}, samples, step.field).size(), row.grows ? 1U : 0U)
-                  << row.rings[0] << ' ' << row.rings[2];
-            }
-          });
+            const double radius = 0.0075 * (1U << k);
+            samples.push_back({2, row.rings[k], Point<2>(0.5 + radius, 0), 0.01});
+            samples.push_back({2, 0.9 * row.rings[k], Point<2>(0.5 - radius, 0), 0.01});
+            samples.push_back({1, 99., Point<2>(0.5, radius), 0.01});
+          }
+          EXPECT_EQ(extrema_of_rings({peak}, samples, step.field).size(), row.grows ? 1U : 0U)
+              << row.rings[0] << ' ' << row.rings[2];
+        }
+      });
 }
 
 /** Two corners in turn the larger one: both grow. */
@@ -124,8 +124,7 @@ TEST(VonMises, OfABlockIsKnown)
   {
     double largest = 0;
     AdaptiveSolver<2>(scene_of({{"Geometry/Subdivisions", "2, 1"},
-                                {"Material/Young's modulus", "10"},
-                                {"Material/Poisson's ratio", "0.3"},
+                                given::elastic("10", "0.3"),
                                 {"Material/Plane", plane},
                                 {"Boundary left/Displacement", "0; free"},
                                 {"Boundary bottom/Displacement", "free; 0"},
@@ -198,15 +197,10 @@ TEST(StressSingularity, IsSaidOfPunches)
 }
 
 /** A cone of titanium that is pressed into a socket of bone: its corner below is an edge with unbounded pressure. */
-const Overrides cone = {{"Body stem/Shape", "quadrilateral"},
-                        {"Body stem/Corners", "0, 0; 5, 0; 8, 60; 0, 60"},
-                        {"Body stem/Subdivisions", "2, 10"},
+const Overrides cone = {given::quadrilateral("Body stem", "0, 0; 5, 0; 8, 60; 0, 60", "2, 10"),
                         {"Body stem/Material", "Ti"},
-                        {"Body bone/Shape", "quadrilateral"},
-                        {"Body bone/Corners", "5, 0; 14, 0; 14, 60; 8, 60"},
-                        {"Body bone/Subdivisions", "2, 10"},
-                        {"Material/Young's modulus", "17000"},
-                        {"Material/Poisson's ratio", "0.3"},
+                        given::quadrilateral("Body bone", "5, 0; 14, 0; 14, 60; 8, 60", "2, 10"),
+                        given::elastic("17000", "0.3"),
                         {"Material/Plane", "axisymmetric"},
                         {"Material Ti/Young's modulus", "110000"},
                         {"Boundary stem.top/Pressure", "10*t"},
@@ -215,12 +209,8 @@ const Overrides cone = {{"Body stem/Shape", "quadrilateral"},
                         {"Contact cone/Friction coefficient", "0.3"}};
 
 /** A block on a wider one: an edge on a half plane. */
-const Overrides block_on_block = {{"Body foot/Lower corner", "-1, 0"},
-                                  {"Body foot/Upper corner", "1, 2"},
-                                  {"Body foot/Subdivisions", "2, 2"},
-                                  {"Body ground/Lower corner", "-4, -4"},
-                                  {"Body ground/Upper corner", "4, 0"},
-                                  {"Body ground/Subdivisions", "8, 4"},
+const Overrides block_on_block = {given::block("foot", "-1, 0", "1, 2", "2, 2"),
+                                  given::block("ground", "-4, -4", "4, 0", "8, 4"),
                                   {"Boundary foot.top/Displacement", "0; -0.01*t"},
                                   {"Boundary ground.bottom/Displacement", "0; 0"},
                                   {"Contact sole/Between", "foot.bottom, ground.top"}};
@@ -237,9 +227,7 @@ TEST(StressSingularity, IsSeenInHistoriesAsWithoutThem)
     Overrides entries, last; ///< last: what a static run has in their place
     bool bounded = false;
   };
-  const Overrides rolled = {{"Geometry/Lower corner", "-2, 0"},
-                            {"Geometry/Upper corner", "2, 2"},
-                            {"Geometry/Subdivisions", "8, 2"},
+  const Overrides rolled = {given::box("-2, 0", "2, 2", "8, 2"),
                             {"Boundary top/Displacement", "0; -0.02*t"},
                             {"Boundary bottom/Contact", "unilateral"}};
   for (const Row &row :

@@ -26,12 +26,10 @@ double violation(const Laboratory &discrete, const Vector<double> &u)
 /** A body that stands on a slope of ten degrees, leans against a wall and is pushed. */
 Overrides slope()
 {
-  return {{"Geometry/Shape", "quadrilateral"},
-          {"Geometry/Corners",
-           "0, 0; 2, " + in_digits(2 * std::tan(numbers::PI / 18)) + "; 2, 2; 0, 2"},
-          {"Geometry/Subdivisions", "2, 2"},
-          {"Boundary bottom/Contact", "bilateral"},
-          {"Boundary bottom/Friction bound", "0.01"},
+  return {given::quadrilateral(
+              "Geometry", "0, 0; 2, " + in_digits(2 * std::tan(numbers::PI / 18)) + "; 2, 2; 0, 2",
+              "2, 2"),
+          given::rough("bottom", "bilateral", "0.01"),
           {"Boundary left/Displacement", "0; free"},
           {"Boundary top/Traction", "0.1; -0.3"}};
 }
@@ -56,11 +54,11 @@ TEST(Corners, ASupportDoesNotLiftTheContactBesideIt)
 
 TEST(Corners, TwoContactsMeet)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                                   {"Geometry/Corners", "0, 0; 3, 0.4; 2.5, 2; -0.3, 1.7"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary left/Contact", "bilateral"},
-                                   {"Boundary right/Traction", "0.2; -0.1"}});
+  const Scene<2> scene =
+      scene_of({given::quadrilateral("Geometry", "0, 0; 3, 0.4; 2.5, 2; -0.3, 1.7"),
+                {"Boundary bottom/Contact", "bilateral"},
+                {"Boundary left/Contact", "bilateral"},
+                {"Boundary right/Traction", "0.2; -0.1"}});
   const RandomMesh mesh(scene, 5, 2);
   const Laboratory discrete(scene, mesh);
   EXPECT_LE(violation(discrete, discrete.solve().u), 1e-15);
@@ -89,8 +87,7 @@ TEST(Corners, PrescribedValuesAreMetTogether)
 /** The same where the inclined contact comes first. */
 TEST(Corners, PrescribedValuesAreMetBesideAnInclinedWall)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
-                                   {"Geometry/Corners", "0, 0; 2, 0; 2, 2; 0.5, 2"},
+  const Scene<2> scene = scene_of({given::quadrilateral("Geometry", "0, 0; 2, 0; 2, 2; 0.5, 2"),
                                    {"Boundary left/Contact", "bilateral"},
                                    {"Boundary bottom/Displacement", "free; 0.04"},
                                    {"Boundary right/Traction", "0.1; 0"}});
@@ -121,14 +118,11 @@ TEST(Corners, TurnWithTheBody)
     }
     const Tensor<1, 2> traction = 0.1 * e - 0.3 * n;
     const Scene<2> scene =
-        scene_of({{"Geometry/Shape", "quadrilateral"},
-                  {"Geometry/Corners", corners},
-                  {"Boundary bottom/Contact", "bilateral"},
-                  {"Boundary bottom/Friction bound", "0.01"},
+        scene_of({given::quadrilateral("Geometry", corners),
+                  given::rough("bottom", "bilateral", "0.01"),
                   {"Boundary left/Contact", "bilateral"},
                   {"Boundary top/Traction", in_digits(traction[0]) + "; " + in_digits(traction[1])},
-                  {"Adaptivity/Method", "hup3"},
-                  {"Adaptivity/Maximum steps", "3"}});
+                  given::steps("hup3", "3")});
     double energy = 0;
     AdaptiveSolver<2>(scene).run([&](const StepReport<2> &step) { energy = step.energies.energy; });
     return energy;
@@ -143,10 +137,8 @@ TEST(Corners, TurnWithTheBody)
 /** A block of 2 x 1 under the pressure 0.3 and the shear 0.1 on its top: every force is known. */
 TEST(Equilibrium, OfABlockIsKnown)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "2, 1"},
-                                   {"Geometry/Subdivisions", "3, 2"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "0.02"},
+  const Scene<2> scene = scene_of({given::box("2, 1", "3, 2"),
+                                   given::rough("bottom", "bilateral", "0.02"),
                                    {"Boundary left/Displacement", "0; free"},
                                    {"Boundary top/Traction", "-0.1; -0.3"},
                                    {"Body force/Expression", "0; -0.05"},
@@ -177,12 +169,9 @@ TEST(Equilibrium, OfABlockIsKnown)
 /** Friction on two boundaries: each gets its own force, opposite tangents or not. */
 TEST(Equilibrium, TellsTwoContactsApart)
 {
-  const Scene<2> scene = scene_of({{"Geometry/Upper corner", "3, 1"},
-                                   {"Geometry/Subdivisions", "3, 1"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "0.01"},
-                                   {"Boundary top/Contact", "bilateral"},
-                                   {"Boundary top/Friction bound", "0.03"},
+  const Scene<2> scene = scene_of({given::box("3, 1", "3, 1"),
+                                   given::rough("bottom", "bilateral", "0.01"),
+                                   given::rough("top", "bilateral", "0.03"),
                                    {"Boundary right/Displacement", "0.2; free"},
                                    {"Adaptivity/Maximum steps", "3"}});
   AdaptiveSolver<2>(scene).run(

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What a sweep reads, how it names its directories, what its table holds, and its threads.
+#include "../texts.h"
+
 #include <gtest/gtest.h>
 #include <hpvi/base/cores.h>
 #include <hpvi/base/input_error.h>
@@ -135,21 +137,18 @@ TEST(Cores, ThrowWhatTheFirstThrew)
   for (const unsigned int n_threads : {1U, 4U})
   {
     std::atomic<unsigned int> calls(0);
-    try
-    {
-      on_threads(n_threads, 50,
-                 [&](const unsigned int k)
-                 {
-                   ++calls;
-                   if (k % 10 == 7)
-                     throw std::runtime_error(std::to_string(k));
-                 });
-      ADD_FAILURE() << "nothing was thrown";
-    }
-    catch (const std::runtime_error &error)
-    {
-      EXPECT_STREQ(error.what(), "7");
-    }
+    const std::string failure = failure_of<std::runtime_error>(
+        [&]
+        {
+          on_threads(n_threads, 50,
+                     [&](const unsigned int k)
+                     {
+                       ++calls;
+                       if (k % 10 == 7)
+                         throw std::runtime_error(std::to_string(k));
+                     });
+        });
+    EXPECT_EQ(failure, "7");
     EXPECT_EQ(calls, 50U);
   }
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Threads that share loops, and the tables that they fill together.
+#include "../texts.h"
+
 #include <gtest/gtest.h>
 #include <hpvi/base/memo_table.h>
 #include <hpvi/base/numerical_failure.h>
@@ -81,25 +83,22 @@ TEST(ThreadPool, HelpsInsideOfParts)
     EXPECT_EQ(n_there, 3U);
     EXPECT_EQ(n_done, 60U);
     ASSERT_TRUE(std::chrono::steady_clock::now() < patience); // else one after the other
-    try
-    {
-      parallel_for_each(4, 1,
-                        [&](const unsigned int part)
-                        {
-                          parallel_for_each(9, 1,
-                                            [&](const unsigned int k)
-                                            {
-                                              if (part >= 2 && k >= 3)
-                                                throw NumericalFailure(std::to_string(part) +
-                                                                       std::to_string(k));
-                                            });
-                        });
-      ADD_FAILURE() << "nothing was thrown";
-    }
-    catch (const NumericalFailure &failure)
-    {
-      EXPECT_EQ(failure.what(), std::string("23"));
-    }
+    const std::string failure = failure_of<NumericalFailure>(
+        [&]
+        {
+          parallel_for_each(4, 1,
+                            [&](const unsigned int part)
+                            {
+                              parallel_for_each(9, 1,
+                                                [&](const unsigned int k)
+                                                {
+                                                  if (part >= 2 && k >= 3)
+                                                    throw NumericalFailure(std::to_string(part) +
+                                                                           std::to_string(k));
+                                                });
+                            });
+        });
+    EXPECT_EQ(failure, "23");
   }
 }
 
@@ -135,15 +134,7 @@ TEST(ThreadPool, ThrowsWhatTheFirstThrew)
         if (k == 11 || k == 12 || k == 17)
           throw NumericalFailure("part " + std::to_string(k));
       };
-      try
-      {
-        parallel_for_each(40, 1, work);
-        ADD_FAILURE() << "nothing was thrown";
-      }
-      catch (const NumericalFailure &failure)
-      {
-        EXPECT_EQ(failure.what(), std::string("part 11"));
-      }
+      EXPECT_EQ(failure_of<NumericalFailure>([&] { parallel_for_each(40, 1, work); }), "part 11");
     }
     unsigned int sum = 0;
     parallel_for_each(1, 1, [&](unsigned int) { ++sum; });

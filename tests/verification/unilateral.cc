@@ -100,9 +100,7 @@ Scene<2> make_scene(const PatchScene &given)
   return scene;
 }
 
-class UnilateralPatch : public ::testing::TestWithParam<PatchScene>
-{
-};
+using UnilateralPatch = ::testing::TestWithParam<PatchScene>;
 
 TEST_P(UnilateralPatch, IsExact)
 {

@@ -13,8 +13,7 @@ using namespace verification;
 Scene<2> pressed(const Overrides &more)
 {
   return scene_of(with({{"Geometry/Subdivisions", "4, 4"},
-                        {"Material/Young's modulus", "1"},
-                        {"Material/Poisson's ratio", "0.3"},
+                        given::elastic("1", "0.3"),
                         {"Boundary bottom/Contact", "unilateral"},
                         {"Boundary top/Displacement", "0.03; -0.02"},
                         {"Adaptivity/Method", "hpa3"},
@@ -55,39 +54,37 @@ struct Coefficient
   bool jumps; ///< edges with a jump are named until they carry next to nothing
 };
 
-class AnyCoefficient : public ::testing::TestWithParam<Coefficient>
-{
-};
+using AnyCoefficient = ::testing::TestWithParam<Coefficient>;
 
 /** The body slips everywhere: friction is int mu_f p wherever no edge is said to miss it, and in the end. */
 TEST_P(AnyCoefficient, IsIntegratedOrWarnedOf)
 {
   const Coefficient &given = GetParam();
   for (const std::string steps : {"1", "14"})
-    AdaptiveSolver<2>(pressed({{"Boundary bottom/Friction coefficient", given.mu},
-                               {"Adaptivity/Maximum steps", steps}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              const ContactSpace<2> &space = step.solution().contact_space;
-              const bool warned = !space.unresolved_bounds(step.solution().z).empty() ||
-                                  !space.unresolved_jumps(step.solution().z).empty();
-              EXPECT_TRUE(warned || step.number > 1);
-              const double expected = -friction_by_panels(step.solution()),
-                           found = step.contact.at(0).friction_resultant;
-              EXPECT_LT(expected, 0.);
-              if (!warned || step.number == 14)
-              {
-                EXPECT_NEAR(found, expected, 0.01 * std::abs(expected)) << "step " << step.number;
-              }
-              if (!step.stopped_by.empty())
-              {
-                EXPECT_EQ(mentions(texts(step.warnings), "Friction coefficient varies inside"),
-                          steps == "1" || given.jumps)
-                    << in_lines(texts(step.warnings));
-              }
-              EXPECT_FALSE(mentions(texts(step.warnings), "Friction bound"));
-            });
+    each_step<2>(pressed({{"Boundary bottom/Friction coefficient", given.mu},
+                          {"Adaptivity/Maximum steps", steps}}),
+                 [&](const StepReport<2> &step)
+                 {
+                   const ContactSpace<2> &space = step.solution().contact_space;
+                   const bool warned = !space.unresolved_bounds(step.solution().z).empty() ||
+                                       !space.unresolved_jumps(step.solution().z).empty();
+                   EXPECT_TRUE(warned || step.number > 1);
+                   const double expected = -friction_by_panels(step.solution()),
+                                found = step.contact.at(0).friction_resultant;
+                   EXPECT_LT(expected, 0.);
+                   if (!warned || step.number == 14)
+                   {
+                     EXPECT_NEAR(found, expected, 0.01 * std::abs(expected))
+                         << "step " << step.number;
+                   }
+                   if (!step.stopped_by.empty())
+                   {
+                     EXPECT_EQ(mentions(texts(step.warnings), "Friction coefficient varies inside"),
+                               steps == "1" || given.jumps)
+                         << in_lines(texts(step.warnings));
+                   }
+                   EXPECT_FALSE(mentions(texts(step.warnings), "Friction bound"));
+                 });
 }
 
 INSTANTIATE_TEST_SUITE_P(, AnyCoefficient,
@@ -103,22 +100,12 @@ TEST(CoarseCoefficient, IsNamedWithItsSumAndItsIntegral)
   const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; 0"},
                                    {"Boundary bottom/Contact", "unilateral"},
                                    {"Boundary bottom/Friction coefficient", "x^4"}});
-  Triangulation<2> mesh;
-  make_mesh(scene, mesh);
-  const Laboratory discrete(scene, mesh, Degrees(1, 3));
-  const ContactSpace<2> &space = discrete.contact_space;
-  Vector<double> z(space.n_multipliers());
-  EXPECT_TRUE(space.unresolved_bounds(z).empty()); // nothing presses
-  for (const unsigned int pressure : space.faces().at(0).pressures)
-    z[pressure] = 1.;
-  const auto bounds = space.unresolved_bounds(z);
+  EXPECT_TRUE(PressedEdge(scene).bounds(0.).empty()); // nothing presses
+  const auto bounds = PressedEdge(scene).bounds(1.);
   ASSERT_EQ(bounds.size(), 1U);
   EXPECT_NEAR(bounds[0].integral, 0.2, 1e-14);
   EXPECT_NEAR(bounds[0].sum, 7. / 36, 1e-14);
-  const Laboratory richer(scene, mesh, Degrees(1, 5));
-  Vector<double> one(richer.contact_space.n_multipliers());
-  one = 1.;
-  EXPECT_TRUE(richer.contact_space.unresolved_bounds(one).empty());
+  EXPECT_TRUE(PressedEdge(scene, 5).bounds(1.).empty());
 }
 
 /** A jump where nothing presses changes no friction. */
@@ -148,10 +135,9 @@ TEST(Overshoot, IsNotDividedByACoefficientThatVanishes)
   for (const std::string steps : {"1", "2"})
   {
     std::vector<std::string> lines;
-    AdaptiveSolver<2>(
-        pressed({{"Boundary bottom/Friction coefficient", "2*exp(-((x-0.37)/0.005)^2)"},
-                 {"Adaptivity/Maximum steps", steps}}))
-        .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
+    each_step<2>(pressed({{"Boundary bottom/Friction coefficient", "2*exp(-((x-0.37)/0.005)^2)"},
+                          {"Adaptivity/Maximum steps", steps}}),
+                 [&](const StepReport<2> &step) { lines = texts(step.warnings); });
     EXPECT_FALSE(mentions(lines, "|lambda|")) << in_lines(lines);
     // In the first step friction is 1e-80 of the pressure.
     EXPECT_EQ(mentions(lines, "where Friction coefficient times the pressure is "), steps == "2")
@@ -172,18 +158,18 @@ TEST(NarrowGap, IsWarnedOfUntilThePressureIsRight)
     double pressure = 0;
     unsigned int n_missed = 0;
     std::vector<std::string> warnings;
-    AdaptiveSolver<2>(pressed({{"Boundary bottom/Gap", bump},
-                               {"Solver/Normal contact", kind},
-                               {"Adaptivity/Maximum steps", "12"}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              pressure = step.contact.at(0).highest_pressure;
-              const bool missed = !unseen_gaps(step.solution()).empty();
-              EXPECT_TRUE(missed || std::abs(pressure - 0.57) < 0.1) << kind << " " << pressure;
-              n_missed += missed;
-              warnings = texts(step.warnings);
-            });
+    each_step<2>(pressed({{"Boundary bottom/Gap", bump},
+                          {"Solver/Normal contact", kind},
+                          {"Adaptivity/Maximum steps", "12"}}),
+                 [&](const StepReport<2> &step)
+                 {
+                   pressure = step.contact.at(0).highest_pressure;
+                   const bool missed = !unseen_gaps(step.solution()).empty();
+                   EXPECT_TRUE(missed || std::abs(pressure - 0.57) < 0.1)
+                       << kind << " " << pressure;
+                   n_missed += missed;
+                   warnings = texts(step.warnings);
+                 });
     EXPECT_GT(n_missed, 1U);
     EXPECT_LT(n_missed, 10U);
     EXPECT_NEAR(pressure, 0.57, 0.02) << kind;
@@ -208,10 +194,10 @@ TEST(NarrowGap, CountsWhereTheBodyReaches)
   const auto n_missed = [](const std::string &gap, const std::string &down)
   {
     unsigned int result = 0;
-    AdaptiveSolver<2>(pressed({{"Boundary bottom/Gap", gap},
-                               {"Boundary top/Displacement", "0; " + down},
-                               {"Adaptivity/Maximum steps", "1"}}))
-        .run([&](const StepReport<2> &step) { result = unseen_gaps(step.solution()).size(); });
+    each_step<2>(pressed({{"Boundary bottom/Gap", gap},
+                          {"Boundary top/Displacement", "0; " + down},
+                          {"Adaptivity/Maximum steps", "1"}}),
+                 [&](const StepReport<2> &step) { result = unseen_gaps(step.solution()).size(); });
     return result;
   };
   EXPECT_EQ(n_missed("0.005*exp(-((x-0.37)/0.005)^2)", "-0.02"), 1U);

@@ -31,16 +31,14 @@ std::vector<std::string> warnings_of(const Scene<2> &scene)
 
 bool warns(const Scene<2> &scene, const std::string &words)
 {
-  const std::vector<std::string> warnings = warnings_of(scene);
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [&](const std::string &w) { return w.find(words) != std::string::npos; });
+  return mentions(warnings_of(scene), words);
 }
 
 TEST(Warnings, BilateralContactThatPulls)
 {
   // The left edge pushed up tips the block of Example 5.2: half of its contact is pulled. Pressed
   // down hard enough nothing is.
-  const Overrides steps = {{"Adaptivity/Method", "hup2"}, {"Adaptivity/Maximum steps", "2"}};
+  const Overrides steps = {given::steps("hup2", "2")};
   EXPECT_TRUE(warns(shipped_scene("han-6-12", with(steps, {{"Boundary left/Traction", "0; 10"}})),
                     "pulls"));
   EXPECT_FALSE(warns(shipped_scene("han-6-12", with(steps, {{"Boundary top/Traction", "0; -50"}})),
@@ -68,8 +66,7 @@ TEST(Warnings, StrainsAndRotationsThatAreNotSmall)
   EXPECT_FALSE(warns(deformed_square("-0.1*y; 0.1*x"), strain));
   EXPECT_FALSE(warns(deformed_square("5; 7"), strain)); // only moved
   // A mesh that is refined has the same coarse cells.
-  EXPECT_TRUE(warns(deformed_square("0.06*y + 0.1*x*y; 0", {{"Adaptivity/Maximum steps", "4"},
-                                                            {"Adaptivity/Method", "hup2"}}),
+  EXPECT_TRUE(warns(deformed_square("0.06*y + 0.1*x*y; 0", {given::steps("hup2", "4")}),
                     "cell at (0.75 0.75)"));
 }
 
@@ -120,10 +117,8 @@ TEST(Warnings, StrainsThatAreEqualInAllDirectionsAreNumbers)
           EXPECT_NEAR(principal[i] / (size * e), 1, 1e-12) << shear;
         EXPECT_GE(principal[0], principal[1]);
       }
-  EXPECT_FALSE(warns(scene_of({{"Geometry/Upper corner", "100, 10"},
-                               {"Geometry/Subdivisions", "4, 1"},
-                               {"Material/Young's modulus", "210000"},
-                               {"Material/Poisson's ratio", "0"},
+  EXPECT_FALSE(warns(scene_of({given::box("100, 10", "4, 1"),
+                               given::elastic("210000", "0"),
                                {"Material/Plane", "stress"},
                                {"Material/Thermal expansion", "12e-6"},
                                {"Temperature/Expression", "20"},
@@ -139,10 +134,9 @@ TEST(Warnings, StrainsOfPastLoadSteps)
   LoadHistory<2>(deformed_square("0; -y*" + strain, {{"Loading/Steps", "3"}}))
       .run([&](const StepReport<2> &step) { last = texts(step.warnings); });
   EXPECT_TRUE(std::any_of(last.begin(), last.end(),
-                          [](const std::string &line)
-                          {
+                          [](const std::string &line) {
                             return line.find("the strain is 20 %") == 0 &&
-                                   line.find("load step 2, t = 0.6") != std::string::npos;
+                                   says(line, "load step 2, t = 0.6");
                           }));
 }
 
@@ -151,8 +145,7 @@ TEST(Warnings, SlipThatIsLong)
   const auto pushed = [](const std::string &u)
   {
     return scene_of({{"Boundary top/Displacement", u + "; free"},
-                     {"Boundary bottom/Contact", "bilateral"},
-                     {"Boundary bottom/Friction bound", "1e-6"},
+                     given::rough("bottom", "bilateral", "1e-6"),
                      {"Adaptivity/Maximum steps", "1"}});
   };
   EXPECT_FALSE(warns(pushed("0.14"), "the body slides"));
@@ -204,10 +197,8 @@ TEST(Warnings, MultiplierAboveOneBetweenGaussPoints)
   const auto stick_slip =
       [](const std::string &method, const std::string &degree, const std::string &steps)
   {
-    return shipped_scene("stick-slip", {{"Adaptivity/Method", method},
-                                        {"Adaptivity/Start degree", degree},
-                                        {"Adaptivity/Maximum steps", steps},
-                                        {"Exact solution/Transition", "0.1"}});
+    return shipped_scene(
+        "stick-slip", {given::steps(method, steps, degree), {"Exact solution/Transition", "0.1"}});
   };
   EXPECT_TRUE(warns(stick_slip("pu", "5", "1"), "between Gauss points"));
   EXPECT_FALSE(warns(stick_slip("hpa3", "2", "12"), "between Gauss points"));
@@ -224,9 +215,8 @@ TEST(Warnings, TransitionOnACoarseEdge)
 TEST(Warnings, EstimateThatStagnates)
 {
   // A step of the traction inside an edge is not resolved by raising p alone.
-  EXPECT_TRUE(warns(shipped_scene("han-6-12", {{"Adaptivity/Method", "pu"},
+  EXPECT_TRUE(warns(shipped_scene("han-6-12", {given::steps("pu", "9"),
                                                {"Adaptivity/Maximum degree", "14"},
-                                               {"Adaptivity/Maximum steps", "9"},
                                                {"Boundary top/Traction", "if(x<1.3, 0, -100); 0"}}),
                     "stagnates"));
   EXPECT_FALSE(warns(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "8"}}), "stagnates"));
@@ -247,7 +237,7 @@ std::string warning(const std::string &words, const std::vector<double> &estimat
   for (const std::string &line :
        texts(joined(warnings(scene, contact, body_state(SolutionField(solution)), history),
                     multiplier_warnings(solution, contact, error, {}))))
-    if (line.find(words) != std::string::npos)
+    if (says(line, words))
       return line;
   return {};
 }
@@ -300,9 +290,7 @@ TEST(Warnings, LowDegreeNearIncompressibility)
   {
     return shipped_scene("stick-slip", {{"Material/Plane", "strain"},
                                         {"Material/Poisson's ratio", poisson},
-                                        {"Adaptivity/Method", "hup2"},
-                                        {"Adaptivity/Start degree", degree},
-                                        {"Adaptivity/Maximum steps", "1"}});
+                                        given::steps("hup2", "1", degree)});
   };
   EXPECT_TRUE(warns(stick_slip("0.4999", "2"), "may lock"));
   EXPECT_FALSE(warns(stick_slip("0.4999", "4"), "may lock"));
@@ -312,26 +300,19 @@ TEST(Warnings, LowDegreeNearIncompressibility)
 TEST(Warnings, DoNotDivideByABoundThatVanishes)
 {
   std::vector<std::string> lines;
-  AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5*exp(-40*x)"},
-                                               {"Adaptivity/Maximum steps", "10"}}))
-      .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
+  each_step<2>(shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "4.5*exp(-40*x)"},
+                                          {"Adaptivity/Maximum steps", "10"}}),
+               [&](const StepReport<2> &step) { lines = texts(step.warnings); });
   for (const std::string &line : lines)
     EXPECT_EQ(line.find("|lambda|"), std::string::npos) << line;
 }
 /** Half of the edge has no bound; the polynomial through the other half goes on there. */
 TEST(Warnings, NameFrictionWhereThereIsNone)
 {
-  std::vector<std::string> lines;
-  AdaptiveSolver<2>(
-      shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "if(x < 0.5, 0, 4.5)"},
-                                 {"Adaptivity/Method", "pu"},
-                                 {"Adaptivity/Start degree", "4"},
-                                 {"Adaptivity/Maximum steps", "1"}}))
-      .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
-  bool named = false;
-  for (const std::string &line : lines)
-    named = named || line.find("where Friction bound is 0") != std::string::npos;
-  EXPECT_TRUE(named);
+  EXPECT_TRUE(
+      warns(shipped_scene("han-6-12", {{"Boundary bottom/Friction bound", "if(x < 0.5, 0, 4.5)"},
+                                       given::steps("pu", "1", "4")}),
+            "where Friction bound is 0"));
 }
 TEST(Warnings, ABoundOfRoundOffSaysSo)
 {
@@ -400,8 +381,7 @@ TEST(Warnings, OfHistoriesWithFewLoadSteps)
   {
     std::vector<std::string> warnings;
     LoadStep end;
-    LoadHistory<2>(scene_of({{"Material/Young's modulus", "1000"},
-                             {"Material/Poisson's ratio", "0"},
+    LoadHistory<2>(scene_of({given::elastic("1000", "0"),
                              {"Boundary top/Displacement", "0.05*t; free"},
                              {"Boundary top/Pressure", row.pressure},
                              {"Boundary bottom/Contact", "unilateral"},
@@ -432,8 +412,7 @@ Scene<2> pressed_square(const std::string &displacement, const Overrides &entrie
 {
   return scene_of(with({{"Boundary top/Displacement", displacement},
                         {"Boundary bottom/Contact", "unilateral"},
-                        {"Adaptivity/Method", "hup3"},
-                        {"Adaptivity/Maximum steps", "1"}},
+                        given::steps("hup3", "1")},
                        entries));
 }
 
@@ -480,7 +459,7 @@ TEST(Deformation, LeavesRigidMotionsAside)
 /** Half of it acts where nothing presses: of a bound that follows the pressure, or Coulomb's, nothing does. */
 TEST(Warnings, FrictionWithoutContact)
 {
-  const Overrides fine = {{"Adaptivity/Method", "hap2"}, {"Adaptivity/Maximum steps", "6"}};
+  const Overrides fine = {given::steps("hap2", "6")};
   const auto with_friction = [&](const std::string &entry, const std::string &value)
   {
     return pressed_square("0.03; -0.02", with(fine, {{"Boundary bottom/Gap", "0.1*max(0, x - 0.5)"},
@@ -612,11 +591,9 @@ TEST(Warnings, BodiesThatLieOnEachOther)
 TEST(Zones, AreNoTwoAlikeInARow)
 {
   const Scene<2> scene = scene_of({{"Boundary top/Displacement", "0; -0.02"},
-                                   {"Boundary bottom/Contact", "bilateral"},
-                                   {"Boundary bottom/Friction bound", "1e-5"},
+                                   given::rough("bottom", "bilateral", "1e-5"),
                                    {"Geometry/Subdivisions", "2, 1"},
-                                   {"Adaptivity/Method", "hup3"},
-                                   {"Adaptivity/Maximum steps", "1"}});
+                                   given::steps("hup3", "1")});
   AdaptiveSolver<2>(scene).run(
       [](const StepReport<2> &step)
       {
