@@ -38,6 +38,9 @@ class Labels(RunTest):
             self.assertEqual(self.summary()["title"].rstrip(), shown.rstrip())
             read_vtu(self.out / "solution-01.vtu")
 
+    def test_a_byte_order_mark_is_no_part_of_the_first_line(self):
+        self.assertEqual(self.run_text(b"\xef\xbb\xbfset Title = marked\n")[0].rstrip(), "marked")
+
     def test_a_title_from_the_name_of_a_file_survives_scene_prm(self):
         for name, title in (("a#b", "a_b"), ("ends\\", "ends_"), ("two\nlines", "two_lines")):
             scene = self.home / f"{name}.prm"

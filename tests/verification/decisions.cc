@@ -304,6 +304,7 @@ TEST_F(Marking, AdaptiveBisectionTakesCellsAboveTheThreshold)
   // Exactly at the threshold is not above it.
   adaptivity.hap_threshold = 1.;
   EXPECT_TRUE(bisected(mark_with(Method::hap2, {4, 4, 4}, {2, 2, 2})).empty());
+  EXPECT_EQ(bisected(mark_with(Method::hap2, {4, 4.1, 3.9}, {2, 2, 2})), (Cells{1}));
 }
 
 TEST_F(Marking, UniformRaisingStopsAtTheMaximum)
@@ -389,6 +390,11 @@ TEST_F(Marking, FractionsAreRoundedUp)
     std::iota(expected.begin(), expected.end(), 0);
     ASSERT_EQ(bisected(result), expected) << n;
   }
+  adaptivity.hpa2_marked = 0.07; // 0.07 * 100 is above 7 in double precision
+  EXPECT_EQ(bisected(mark_with(Method::hpa2, std::vector<double>(100, 1.), Degrees(100, 3),
+                               std::vector<double>(100, 0.)))
+                .size(),
+            7U);
 }
 
 TEST_F(Marking, DefaultsAreTheNumbersOfTheThesis)
