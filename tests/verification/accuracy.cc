@@ -94,9 +94,9 @@ TEST(TrueError, OnLongCellsIsThatOnSquareOnes)
 {
   std::vector<double> norms;
   for (const char *const subdivisions : {"4, 1", "4, 256"})
-    AdaptiveSolver<2>(shipped_scene("partial-slip", {given::box("2, 256", subdivisions),
-                                                     {"Adaptivity/Maximum steps", "1"}}))
-        .run([&](const StepReport<2> &step) { norms.push_back(step.errors.energy_norm); });
+    each_step<2>(shipped_scene("partial-slip", {given::box("2, 256", subdivisions),
+                                                {"Adaptivity/Maximum steps", "1"}}),
+                 [&](const StepReport<2> &step) { norms.push_back(step.errors.energy_norm); });
   ASSERT_EQ(norms.size(), 2u);
   EXPECT_NEAR(norms[0], norms[1], 1e-9 * norms[1]);
 }
@@ -158,27 +158,26 @@ TEST(TrueError, FewUnknownsForAMillionth)
 /** J(u_N) - J(u) = 1/2 |u-u_N|_a^2 + slack, where u_N meets the Dirichlet data well enough. */
 TEST(TrueError, EnergyDifferenceObeysItsIdentity)
 {
-  AdaptiveSolver<2>(shipped_scene("stick-slip", adaptivity("hpa3", 14)))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            const double half_square = 0.5 * std::pow(step.errors.energy, 2);
-            const double expected = half_square + step.energies.slack;
-            const double difference = step.energies.energy - step.errors.reference_energy;
-            EXPECT_NEAR(difference, expected, 1e-3 * expected + half_square) << step.number;
-          });
+  each_step<2>(shipped_scene("stick-slip", adaptivity("hpa3", 14)),
+               [](const StepReport<2> &step)
+               {
+                 const double half_square = 0.5 * std::pow(step.errors.energy, 2);
+                 const double expected = half_square + step.energies.slack;
+                 const double difference = step.energies.energy - step.errors.reference_energy;
+                 EXPECT_NEAR(difference, expected, 1e-3 * expected + half_square) << step.number;
+               });
 }
 
 /** Here loads work, too: those of the top edge. */
 TEST(TrueError, EnergyTendsToThatOfTheExactSolution)
 {
-  AdaptiveSolver<2>(shipped_scene("smooth", {{"Adaptivity/Maximum steps", "9"}}))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            const double bound = 1e-9 + step.errors.energy * step.errors.energy_norm;
-            EXPECT_NEAR(step.energies.energy, step.errors.reference_energy, bound) << step.number;
-          });
+  each_step<2>(shipped_scene("smooth", {{"Adaptivity/Maximum steps", "9"}}),
+               [](const StepReport<2> &step)
+               {
+                 const double bound = 1e-9 + step.errors.energy * step.errors.energy_norm;
+                 EXPECT_NEAR(step.energies.energy, step.errors.reference_energy, bound)
+                     << step.number;
+               });
 }
 
 /** Far below what users ask for: no stage may lose digits that its successors need. */
@@ -245,16 +244,16 @@ TEST(StoredSolution, ObeysPythagoras)
   {
     Overrides overrides = without_friction(degree);
     overrides.emplace_back("Error/Reference solution", file.path);
-    AdaptiveSolver<2>(shipped_scene("han-6-12", overrides))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              const double norm = step.errors.energy_norm, own = step.energies.norm;
-              const double expected = norm * norm - own * own;
-              EXPECT_NEAR(step.errors.energy * step.errors.energy, expected, 1e-9 * norm * norm)
-                  << degree;
-              EXPECT_GT(expected, 1e-5 * norm * norm);
-            });
+    each_step<2>(
+        shipped_scene("han-6-12", overrides),
+        [&](const StepReport<2> &step)
+        {
+          const double norm = step.errors.energy_norm, own = step.energies.norm;
+          const double expected = norm * norm - own * own;
+          EXPECT_NEAR(step.errors.energy * step.errors.energy, expected, 1e-9 * norm * norm)
+              << degree;
+          EXPECT_GT(expected, 1e-5 * norm * norm);
+        });
   }
 }
 
@@ -375,13 +374,12 @@ TEST(Limits, ATakenToleranceIsTheOnlyOne)
 TEST(Limits, SecondsAreThoseOfAllStepsSoFar)
 {
   double sum = 0;
-  AdaptiveSolver<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "4"}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            sum += step.times.total();
-            EXPECT_GT(step.times.total(), 0.);
-            EXPECT_NEAR(step.seconds, sum, 1e-12);
-          });
+  each_step<2>(shipped_scene("han-6-12", {{"Adaptivity/Maximum steps", "4"}}),
+               [&](const StepReport<2> &step)
+               {
+                 sum += step.times.total();
+                 EXPECT_GT(step.times.total(), 0.);
+                 EXPECT_NEAR(step.seconds, sum, 1e-12);
+               });
 }
 } // namespace

@@ -215,7 +215,7 @@ TEST(Axisymmetric, FarFromTheAxisIsPlaneStrain)
   {
     const std::string x = "(x - " + in_digits(radius) + ")";
     std::vector<std::vector<double>> result;
-    AdaptiveSolver<2>(
+    each_step<2>(
         scene_of({given::elastic("10", "0.3"),
                   {"Material/Plane", plane},
                   {"Material/Density", "0.1"},
@@ -229,8 +229,8 @@ TEST(Axisymmetric, FarFromTheAxisIsPlaneStrain)
                   {"Boundary bottom/Gap", "0.05*" + x},
                   {"Boundary bottom/" + friction, "0.1*(1 + " + x + ")"},
                   {"Solver/Normal contact", "multiplier"},
-                  given::steps("hup3", "2")}))
-        .run([&](const StepReport<2> &step) { result.push_back(amounts(step)); });
+                  given::steps("hup3", "2")}),
+        [&](const StepReport<2> &step) { result.push_back(amounts(step)); });
     return result;
   };
   for (const char *const friction : {"Friction bound", "Friction coefficient"})

@@ -233,22 +233,22 @@ TEST(Bodies, PressEachOtherAsHertzSays)
 {
   constexpr double a = HertzOfTwo::a, k = HertzOfTwo::k;
   const HertzOfTwo hertz("5, 2", "11", {given::steps("pu", "1", "9")});
-  AdaptiveSolver<2>(hertz.scene)
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            EXPECT_NEAR(step.energies.energy, HertzOfTwo::energy, 1e-10 * HertzOfTwo::energy);
-            const ContactState<2> &contact = step.contact[0];
-            EXPECT_NEAR(contact.normal_resultant, -7.6969020013, 1e-8);
-            ASSERT_EQ(contact.transitions.size(), 2U);
-            EXPECT_NEAR(contact.transitions[0][0], -a, 2e-4);
-            EXPECT_NEAR(contact.transitions[1][0], a, 2e-4);
-            for (const ContactPoint<2> &point : contact.points)
-            {
-              const double x = std::abs(point.x[0]) < 0.6 ? point.x[0] : 0.;
-              EXPECT_NEAR(x == 0 ? -k * a : point.normal_traction, -k * half_ellipse(x, a), 1e-4);
-            }
-          });
+  each_step<2>(hertz.scene,
+               [&](const StepReport<2> &step)
+               {
+                 EXPECT_NEAR(step.energies.energy, HertzOfTwo::energy, 1e-10 * HertzOfTwo::energy);
+                 const ContactState<2> &contact = step.contact[0];
+                 EXPECT_NEAR(contact.normal_resultant, -7.6969020013, 1e-8);
+                 ASSERT_EQ(contact.transitions.size(), 2U);
+                 EXPECT_NEAR(contact.transitions[0][0], -a, 2e-4);
+                 EXPECT_NEAR(contact.transitions[1][0], a, 2e-4);
+                 for (const ContactPoint<2> &point : contact.points)
+                 {
+                   const double x = std::abs(point.x[0]) < 0.6 ? point.x[0] : 0.;
+                   EXPECT_NEAR(x == 0 ? -k * a : point.normal_traction, -k * half_ellipse(x, a),
+                               1e-4);
+                 }
+               });
 }
 
 /** Where meshes match there is a bound: above the error, and energies are known to be within an interval. */
@@ -258,20 +258,18 @@ TEST(Bodies, HaveABoundOfTheirErrorByHertz)
   {
     const HertzOfTwo hertz("6, 2", "7", {given::steps(method, "5")});
     unsigned int n_bounds = 0;
-    AdaptiveSolver<2>(hertz.scene)
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              ASSERT_TRUE(step.bound) << step.no_bound;
-              ++n_bounds;
-              const double error = hertz.error(step.solution());
-              EXPECT_GE(step.bound->total, error) << method;
-              EXPECT_LE(step.bound->total, 2.5 * error) << method;
-              EXPECT_LE(step.energies.energy - step.bound->energy_below,
-                        HertzOfTwo::energy + 1e-12);
-              EXPECT_GE(step.energies.energy + step.bound->energy_above,
-                        HertzOfTwo::energy - 1e-12);
-            });
+    each_step<2>(
+        hertz.scene,
+        [&](const StepReport<2> &step)
+        {
+          ASSERT_TRUE(step.bound) << step.no_bound;
+          ++n_bounds;
+          const double error = hertz.error(step.solution());
+          EXPECT_GE(step.bound->total, error) << method;
+          EXPECT_LE(step.bound->total, 2.5 * error) << method;
+          EXPECT_LE(step.energies.energy - step.bound->energy_below, HertzOfTwo::energy + 1e-12);
+          EXPECT_GE(step.energies.energy + step.bound->energy_above, HertzOfTwo::energy - 1e-12);
+        });
     EXPECT_EQ(n_bounds, 5U);
   }
 }
@@ -462,52 +460,47 @@ std::vector<KnownCase> known_cases()
 TEST(Bodies, HaveKnownAnswers)
 {
   for (const KnownCase &known : known_cases())
-    AdaptiveSolver<2>(scene_of(known.entries))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              if (step.stopped_by.empty())
-                return;
-              const ContactState<2> &contact = step.contact.back();
-              EXPECT_NEAR(step.energies.energy, known.energy, 3e-6 * known.energy) << known.name;
-              EXPECT_NEAR(contact.normal_resultant, -known.normal, 2e-5 * known.normal)
-                  << known.name;
-              EXPECT_NEAR(contact.friction_resultant, -known.friction, 2e-5) << known.name;
-              EXPECT_LT(step.equilibrium.force_imbalance, 1e-10) << known.name;
-              EXPECT_LT(step.equilibrium.moment_imbalance, 1e-10) << known.name;
-            });
+    last_step<2>(scene_of(known.entries),
+                 [&](const StepReport<2> &step)
+                 {
+                   const ContactState<2> &contact = step.contact.back();
+                   EXPECT_NEAR(step.energies.energy, known.energy, 3e-6 * known.energy)
+                       << known.name;
+                   EXPECT_NEAR(contact.normal_resultant, -known.normal, 2e-5 * known.normal)
+                       << known.name;
+                   EXPECT_NEAR(contact.friction_resultant, -known.friction, 2e-5) << known.name;
+                   EXPECT_LT(step.equilibrium.force_imbalance, 1e-10) << known.name;
+                   EXPECT_LT(step.equilibrium.moment_imbalance, 1e-10) << known.name;
+                 });
 }
 
 /** Force on each body by itself. */
 TEST(Bodies, AreEachInEquilibrium)
 {
-  AdaptiveSolver<2>(scene_of(known_cases()[3].entries))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            if (step.stopped_by.empty())
-              return;
-            for (const std::string body : {"lower.", "middle.", "upper."})
-            {
-              Tensor<1, 2> sum;
-              double size = 0;
-              for (const BoundaryForce<2> &force : step.equilibrium.reactions)
-                if (force.boundary.rfind(body, 0) == 0)
-                {
-                  sum += force.force;
-                  size += force.force.norm();
-                }
-              EXPECT_GT(size, 0.2) << body;
-              EXPECT_LT(sum.norm(), 1e-10 * size) << body;
-            }
-            ASSERT_EQ(step.equilibrium.bodies.size(), 3U);
-            EXPECT_EQ(step.equilibrium.bodies[1].body, "middle");
-            for (const BodyBalance &one : step.equilibrium.bodies)
-            {
-              EXPECT_LT(one.force_imbalance, 1e-10) << one.body;
-              EXPECT_LT(one.moment_imbalance, 1e-10) << one.body;
-            }
-          });
+  last_step<2>(scene_of(known_cases()[3].entries),
+               [](const StepReport<2> &step)
+               {
+                 for (const std::string body : {"lower.", "middle.", "upper."})
+                 {
+                   Tensor<1, 2> sum;
+                   double size = 0;
+                   for (const BoundaryForce<2> &force : step.equilibrium.reactions)
+                     if (force.boundary.rfind(body, 0) == 0)
+                     {
+                       sum += force.force;
+                       size += force.force.norm();
+                     }
+                   EXPECT_GT(size, 0.2) << body;
+                   EXPECT_LT(sum.norm(), 1e-10 * size) << body;
+                 }
+                 ASSERT_EQ(step.equilibrium.bodies.size(), 3U);
+                 EXPECT_EQ(step.equilibrium.bodies[1].body, "middle");
+                 for (const BodyBalance &one : step.equilibrium.bodies)
+                 {
+                   EXPECT_LT(one.force_imbalance, 1e-10) << one.body;
+                   EXPECT_LT(one.moment_imbalance, 1e-10) << one.body;
+                 }
+               });
 }
 
 /** What is missing on one body is seen there, although all bodies together balance. */
@@ -666,8 +659,8 @@ TEST(Bodies, TakeLoadsAlongStraightSidesAsBoxesDo)
     for (const auto &[entry, value] : conditions)
       entries.emplace_back("Boundary " + prefix + entry, value);
     double energy = 0;
-    AdaptiveSolver<2>(scene_of(entries))
-        .run([&](const StepReport<2> &step) { energy = step.energies.energy; });
+    each_step<2>(scene_of(entries),
+                 [&](const StepReport<2> &step) { energy = step.energies.energy; });
     return energy;
   };
   const std::vector<Overrides> rows{
@@ -747,15 +740,14 @@ TEST(Bodies, CarryWhatLiesOnThem)
                                    {"Contact upper/Between", "c.bottom, b.top"},
                                    {"Contact upper/Friction coefficient", "0.3"},
                                    {"Adaptivity/Maximum steps", "4"}}});
-  AdaptiveSolver<2>(scene_of(stack))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            ASSERT_EQ(step.contact.size(), 3U);
-            EXPECT_NEAR(step.contact[0].normal_resultant, -0.2 - 0.17 - 0.3, 1e-9);
-            EXPECT_NEAR(step.contact[1].normal_resultant, -0.17 - 0.3, 1e-9);
-            EXPECT_NEAR(step.contact[2].normal_resultant, -0.3, 1e-9);
-          });
+  each_step<2>(scene_of(stack),
+               [](const StepReport<2> &step)
+               {
+                 ASSERT_EQ(step.contact.size(), 3U);
+                 EXPECT_NEAR(step.contact[0].normal_resultant, -0.2 - 0.17 - 0.3, 1e-9);
+                 EXPECT_NEAR(step.contact[1].normal_resultant, -0.17 - 0.3, 1e-9);
+                 EXPECT_NEAR(step.contact[2].normal_resultant, -0.3, 1e-9);
+               });
   // 0.3 on top push sideways: c slides on b, or b on a, or all of them; the names say who.
   const std::string failure =
       failure_of(scene_of(joined({stack, {{"Boundary c.left/Traction", "0.2; 0"}}})));

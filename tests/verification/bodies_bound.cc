@@ -285,14 +285,13 @@ TEST(JointBound, CountsOscillationInBothBodies)
     two.push_back(entry);
   std::vector<double> oscillation;
   for (const Overrides &entries : {one, two})
-    AdaptiveSolver<2>(scene_of(entries))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              ASSERT_TRUE(step.bound) << step.no_bound;
-              EXPECT_NEAR(step.contact[0].slipping_area, 2., 1e-10);
-              oscillation.push_back(step.bound->oscillation);
-            });
+    each_step<2>(scene_of(entries),
+                 [&](const StepReport<2> &step)
+                 {
+                   ASSERT_TRUE(step.bound) << step.no_bound;
+                   EXPECT_NEAR(step.contact[0].slipping_area, 2., 1e-10);
+                   oscillation.push_back(step.bound->oscillation);
+                 });
   ASSERT_EQ(oscillation.size(), 2U);
   EXPECT_GT(oscillation[0], 1e-9);
   EXPECT_NEAR(oscillation[1], std::sqrt(2.) * oscillation[0], 1e-6 * oscillation[0]);

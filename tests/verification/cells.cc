@@ -643,16 +643,15 @@ TEST(ResidualIndicator, IsThatOfFEValuesOnDistortedCells)
 TEST(ResidualIndicator, IsScaledByTheCoercivityOfTheMaterial)
 {
   for (const std::string plane : {"stress", "strain"})
-    AdaptiveSolver<2>(shipped_scene("han-6-12", {given::elastic("12", "0.25"),
-                                                 {"Material/Plane", plane},
-                                                 {"Adaptivity/Maximum steps", "2"}}))
-        .run(
-            [](const StepReport<2> &step)
-            {
-              const double eta = step.estimate.total();
-              EXPECT_NEAR(step.scaled_estimate, eta / std::sqrt(9.6), 1e-12 * eta);
-              EXPECT_NEAR(step.relative_estimate * step.energies.norm, step.scaled_estimate,
-                          1e-12 * eta);
-            });
+    each_step<2>(shipped_scene("han-6-12", {given::elastic("12", "0.25"),
+                                            {"Material/Plane", plane},
+                                            {"Adaptivity/Maximum steps", "2"}}),
+                 [](const StepReport<2> &step)
+                 {
+                   const double eta = step.estimate.total();
+                   EXPECT_NEAR(step.scaled_estimate, eta / std::sqrt(9.6), 1e-12 * eta);
+                   EXPECT_NEAR(step.relative_estimate * step.energies.norm, step.scaled_estimate,
+                               1e-12 * eta);
+                 });
 }
 } // namespace

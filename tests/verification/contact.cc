@@ -126,20 +126,20 @@ using AnyBound = ::testing::TestWithParam<Bound>;
 /** b(u, z) of the Lagrangian is z' B u where L = -a/2 holds; J integrates g itself. */
 TEST_P(AnyBound, IsIntegratedInTheEnergies)
 {
-  AdaptiveSolver<2>(pushed_with(GetParam().g))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            SCOPED_TRACE("step " + std::to_string(step.number));
-            const Energies &e = step.energies;
-            const double a = e.norm * e.norm;
-            EXPECT_NEAR(step.solution().contact_space.friction_limit(), GetParam().integral, 1e-11);
-            EXPECT_NEAR(e.lagrangian, -0.5 * a, 1e-10 * a);
-            const FrictionIntegrals sums = integrate_friction(step.solution(), 4096);
-            EXPECT_NEAR(step.contact.at(0).friction_resultant, sums.resultant, 1e-6 * sums.bound);
-            EXPECT_NEAR(e.slack, sums.friction - sums.coupling, 1e-5 * sums.friction);
-            expect_slack_of_overshoot_alone(step.solution(), e.slack);
-          });
+  each_step<2>(
+      pushed_with(GetParam().g),
+      [&](const StepReport<2> &step)
+      {
+        SCOPED_TRACE("step " + std::to_string(step.number));
+        const Energies &e = step.energies;
+        const double a = e.norm * e.norm;
+        EXPECT_NEAR(step.solution().contact_space.friction_limit(), GetParam().integral, 1e-11);
+        EXPECT_NEAR(e.lagrangian, -0.5 * a, 1e-10 * a);
+        const FrictionIntegrals sums = integrate_friction(step.solution(), 4096);
+        EXPECT_NEAR(step.contact.at(0).friction_resultant, sums.resultant, 1e-6 * sums.bound);
+        EXPECT_NEAR(e.slack, sums.friction - sums.coupling, 1e-5 * sums.friction);
+        expect_slack_of_overshoot_alone(step.solution(), e.slack);
+      });
 }
 
 // Jumps lie at dyadic points, where panels of the brute force meet.
@@ -200,18 +200,16 @@ TEST(CoarseBound, IsWarnedOfUntilItIsResolved)
   {
     unsigned int n_unresolved = 0, steps = 0;
     std::vector<std::string> warnings;
-    AdaptiveSolver<2>(pushed_with(bump, {{"Adaptivity/Method", method}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              EXPECT_TRUE(
-                  step.solution().contact_space.unresolved_jumps(step.solution().z).empty());
-              n_unresolved =
-                  step.solution().contact_space.unresolved_bounds(step.solution().z).size();
-              EXPECT_TRUE(n_unresolved > 0 || step.number > 2);
-              ++steps;
-              warnings = texts(step.warnings);
-            });
+    each_step<2>(
+        pushed_with(bump, {{"Adaptivity/Method", method}}),
+        [&](const StepReport<2> &step)
+        {
+          EXPECT_TRUE(step.solution().contact_space.unresolved_jumps(step.solution().z).empty());
+          n_unresolved = step.solution().contact_space.unresolved_bounds(step.solution().z).size();
+          EXPECT_TRUE(n_unresolved > 0 || step.number > 2);
+          ++steps;
+          warnings = texts(step.warnings);
+        });
     EXPECT_EQ(steps, 6U);
     EXPECT_EQ(n_unresolved > 0, method == "pu");
     EXPECT_EQ(mentions(warnings, "more than the multiplier's points see"), method == "pu");
@@ -288,13 +286,12 @@ TEST(FreeBody, ABoundThatNoSampleSeesIsAFailureWithItsReason)
   EXPECT_NE(failure.find("Subdivisions"), std::string::npos) << failure;
   // without loads along the contact it needs no friction, but nobody knows its place
   std::vector<std::string> warnings;
-  AdaptiveSolver<2>(free_strip(bump, 0, {{"Boundary top/Traction", "0; -1"}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            warnings = texts(step.warnings);
-            EXPECT_NEAR(step.energies.norm, std::sqrt(4. * (1 - 0.09)), 1e-10);
-          });
+  each_step<2>(free_strip(bump, 0, {{"Boundary top/Traction", "0; -1"}}),
+               [&](const StepReport<2> &step)
+               {
+                 warnings = texts(step.warnings);
+                 EXPECT_NEAR(step.energies.norm, std::sqrt(4. * (1 - 0.09)), 1e-10);
+               });
   EXPECT_TRUE(mentions(warnings, "its place is not unique"));
   // found with a finer mesh
   EXPECT_EQ(failure_of(free_strip(bump, 0.7, {given::graded("Geometry", "2, 0", "13")})), "");
@@ -315,14 +312,13 @@ TEST(Jump, IsBisectedInEveryStepByMethodsThatBisect)
   for (const std::string method : {"hap2", "hpa1", "hpa2", "hpa3"})
   {
     double expected = 1;
-    AdaptiveSolver<2>(pushed_with("if(x < 1.3, 0.2, 0.3)", {{"Adaptivity/Method", method}}))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              EXPECT_LE(edge_with_the_jump(step.solution(), 1.3), expected)
-                  << method << ", step " << step.number;
-              expected /= 2;
-            });
+    each_step<2>(pushed_with("if(x < 1.3, 0.2, 0.3)", {{"Adaptivity/Method", method}}),
+                 [&](const StepReport<2> &step)
+                 {
+                   EXPECT_LE(edge_with_the_jump(step.solution(), 1.3), expected)
+                       << method << ", step " << step.number;
+                   expected /= 2;
+                 });
   }
 }
 
@@ -480,17 +476,16 @@ TEST(TwoContactBoundaries, HaveTransitionsOfTheirOwn)
 TEST(TwoContactBoundaries, HaveNoTransitionInsideTheBodyAndNoCommonResultant)
 {
   unsigned int n_transitions = 0;
-  AdaptiveSolver<2>(block_in_a_corner())
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            EXPECT_EQ(step.contact.size(), 2U);
-            for (const Point<2> &x : transitions(step.contact))
-            {
-              EXPECT_TRUE(x[0] == 0. || x[1] == 0.) << x;
-              ++n_transitions;
-            }
-          });
+  each_step<2>(block_in_a_corner(),
+               [&](const StepReport<2> &step)
+               {
+                 EXPECT_EQ(step.contact.size(), 2U);
+                 for (const Point<2> &x : transitions(step.contact))
+                 {
+                   EXPECT_TRUE(x[0] == 0. || x[1] == 0.) << x;
+                   ++n_transitions;
+                 }
+               });
   EXPECT_GT(n_transitions, 0U);
 }
 

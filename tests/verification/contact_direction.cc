@@ -61,8 +61,8 @@ std::vector<ContactNode> solved(const Overrides &more)
   Overrides entries = pressed();
   entries.insert(entries.end(), more.begin(), more.end());
   std::vector<ContactNode> result;
-  AdaptiveSolver<2>(scene_of(entries))
-      .run([&](const StepReport<2> &step) { result = contact_nodes(step.solution()); });
+  each_step<2>(scene_of(entries),
+               [&](const StepReport<2> &step) { result = contact_nodes(step.solution()); });
   return result;
 }
 

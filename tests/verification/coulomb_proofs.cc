@@ -345,14 +345,13 @@ TEST(CoulombProofs, StrutJamsOrLifts)
   const Outcome jammed = run(shipped_scene("strut", {{"Adaptivity/Maximum steps", "4"}}));
   EXPECT_TRUE(mentions(jammed.warnings, "has another solution"));
   EXPECT_LT(jammed.contact.normal_resultant, -0.1);
-  AdaptiveSolver<2>(shipped_scene("strut", {{"Boundary bottom/Friction coefficient", "0.7"}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            EXPECT_EQ(*step.reduced->coulomb.difference, 0.);
-            EXPECT_FALSE(mentions(texts(step.warnings), "solution"));
-            EXPECT_TRUE(step.solution().z.all_zero());
-          });
+  each_step<2>(shipped_scene("strut", {{"Boundary bottom/Friction coefficient", "0.7"}}),
+               [&](const StepReport<2> &step)
+               {
+                 EXPECT_EQ(*step.reduced->coulomb.difference, 0.);
+                 EXPECT_FALSE(mentions(texts(step.warnings), "solution"));
+                 EXPECT_TRUE(step.solution().z.all_zero());
+               });
 }
 
 TEST(CoulombProofs, WarnsWhereAnotherSolutionIsNotExcluded)

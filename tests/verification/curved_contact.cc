@@ -99,17 +99,17 @@ TEST(CurvedContact, HasLamesPressure)
   const double mu = 10 / 2.6, lambda = 10 * 0.3 / (1.3 * 0.4), B = 1 / (2 * mu + (lambda + mu) / 2),
                p = -(2 * (lambda + mu) * -B / 4 - 2 * mu * B / 4);
   for (const std::string normal_contact : {"nodes", "multiplier"})
-    AdaptiveSolver<2>(scene_of(ring({{"Boundary inner/Traction", "x; y"},
-                                     given::rough("outer", "unilateral", "0.01"),
-                                     {"Solver/Normal contact", normal_contact}})))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              const ContactState<2> &outer = step.contact.at(0);
-              EXPECT_NEAR(-outer.normal_resultant / (4 * numbers::PI), p, 1e-7) << normal_contact;
-              for (const ContactPoint<2> &point : outer.points)
-                EXPECT_NEAR(-point.normal_traction, p, 1e-5) << normal_contact;
-            });
+    each_step<2>(scene_of(ring({{"Boundary inner/Traction", "x; y"},
+                                given::rough("outer", "unilateral", "0.01"),
+                                {"Solver/Normal contact", normal_contact}})),
+                 [&](const StepReport<2> &step)
+                 {
+                   const ContactState<2> &outer = step.contact.at(0);
+                   EXPECT_NEAR(-outer.normal_resultant / (4 * numbers::PI), p, 1e-7)
+                       << normal_contact;
+                   for (const ContactPoint<2> &point : outer.points)
+                     EXPECT_NEAR(-point.normal_traction, p, 1e-5) << normal_contact;
+                 });
 }
 
 /** Counterclockwise, whatever the numbers of cells: an angle falls once, where the boundary begins again. */

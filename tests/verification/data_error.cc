@@ -240,10 +240,10 @@ TEST(DataOfCells, AreKnownOfThoseThatStay)
        {std::tuple("pu", "7", force), {"pu", "7", "0; 0.01*x"}, {"hup2", "3", force}})
   {
     EquilibrationCache cache;
-    AdaptiveSolver<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
-                                             {"Body force/Expression", own_force},
-                                             given::steps(method, steps)}))
-        .run([&](const StepReport<2> &step) { check(step, cache); });
+    each_step<2>(shipped_scene("bolt", {{"Error/Bound", "false"},
+                                        {"Body force/Expression", own_force},
+                                        given::steps(method, steps)}),
+                 [&](const StepReport<2> &step) { check(step, cache); });
   }
 }
 
@@ -279,13 +279,12 @@ TEST(SpringBesideSupport, CountsInTheLift)
   const auto lift = [](const std::string &k)
   {
     double result = 0;
-    AdaptiveSolver<2>(square_on_springs(k, "hup2", 1))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              ASSERT_TRUE(step.bound) << step.no_bound;
-              result = step.bound->data;
-            });
+    each_step<2>(square_on_springs(k, "hup2", 1),
+                 [&](const StepReport<2> &step)
+                 {
+                   ASSERT_TRUE(step.bound) << step.no_bound;
+                   result = step.bound->data;
+                 });
     return result;
   };
   // One edge of degree 2: what the parabolas through its ends and its middle miss.
@@ -312,16 +311,15 @@ TEST(SpringBesideSupport, IsCountedInTheEnergy)
   {
     double low = -1e300, high = 1e300;
     for (const std::string method : {"hpa3", "hup2", "hap4"})
-      AdaptiveSolver<2>(square_on_springs(k, method, method == "hpa3" ? 10 : 3))
-          .run(
-              [&](const StepReport<2> &step)
-              {
-                ASSERT_TRUE(step.bound) << step.no_bound;
-                const double J = step.energies.energy, round_off = 1e-10 * std::abs(J);
-                low = std::max(low, J - step.bound->energy_below);
-                high = std::min(high, J + step.bound->energy_above);
-                EXPECT_LE(low, high + round_off) << k << ", " << method << ", " << step.number;
-              });
+      each_step<2>(square_on_springs(k, method, method == "hpa3" ? 10 : 3),
+                   [&](const StepReport<2> &step)
+                   {
+                     ASSERT_TRUE(step.bound) << step.no_bound;
+                     const double J = step.energies.energy, round_off = 1e-10 * std::abs(J);
+                     low = std::max(low, J - step.bound->energy_below);
+                     high = std::min(high, J + step.bound->energy_above);
+                     EXPECT_LE(low, high + round_off) << k << ", " << method << ", " << step.number;
+                   });
     EXPECT_LT(high - low, 1e-3 * std::abs(low)) << k;
   }
 }

@@ -64,6 +64,18 @@ void each_step(const Scene<dim> &scene, const std::function<void(const StepRepor
   AdaptiveSolver<dim>(scene).run(heard);
 }
 
+/** The step by which a limit ends a run. */
+template <int dim>
+void last_step(const Scene<dim> &scene, const std::function<void(const StepReport<dim> &)> &heard)
+{
+  each_step<dim>(scene,
+                 [&](const StepReport<dim> &step)
+                 {
+                   if (!step.stopped_by.empty())
+                     heard(step);
+                 });
+}
+
 /** Why @p scene has no solution; empty: it has one. */
 inline std::string failure_of(const Scene<2> &scene)
 {
@@ -236,14 +248,12 @@ public:
                  .string())
   {
     const ShapeTables<2> tables;
-    AdaptiveSolver<2>(scene).run(
-        [&](const StepReport<2> &step)
-        {
-          if (step.stopped_by.empty())
-            return;
-          std::ofstream file(path);
-          write_solution(file, step.field, step.energies.energy);
-        });
+    last_step<2>(scene,
+                 [&](const StepReport<2> &step)
+                 {
+                   std::ofstream file(path);
+                   write_solution(file, step.field, step.energies.energy);
+                 });
   }
   ~ReferenceFile()
   {

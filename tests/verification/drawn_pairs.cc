@@ -102,14 +102,13 @@ std::vector<double> angles(const unsigned int n, const std::function<double()> &
 double deviation(const Overrides &entries, const double p)
 {
   double result = 0;
-  AdaptiveSolver<2>(scene_of(entries))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            for (const ContactPoint<2> &point : step.contact.at(0).points)
-              result = std::max({result, std::abs(point.normal_traction + p),
-                                 std::abs(point.tangential_traction)});
-          });
+  each_step<2>(scene_of(entries),
+               [&](const StepReport<2> &step)
+               {
+                 for (const ContactPoint<2> &point : step.contact.at(0).points)
+                   result = std::max({result, std::abs(point.normal_traction + p),
+                                      std::abs(point.tangential_traction)});
+               });
   return result;
 }
 
@@ -196,14 +195,14 @@ TEST(DrawnPairs, FitWhereVerticesNearlyMeet)
   }
 }
 
-/** Meshes of five sizes with the noise of Gmsh, each in each, either side the slave. */
+/** Meshes of three sizes with the noise of Gmsh, each in each, either side the slave. */
 TEST(DrawnPairs, FitAsShapesDoAtAllSizes)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> digits(-9, -8);
   const auto noise = [&] { return std::pow(10., digits(random)); };
-  for (unsigned int n : {2, 3, 4, 5, 6})
-    for (unsigned int m : {2, 3, 4, 5, 6})
+  for (unsigned int n : {2, 3, 6})
+    for (unsigned int m : {2, 3, 5})
       for (const std::string slave : {"pin.outer", "sheet.inner"})
       {
         const Overrides entries = fitted("unilateral", slave, 4);
@@ -281,16 +280,16 @@ struct FitErrors
 FitErrors fit_errors(const Overrides &entries, const double exact)
 {
   FitErrors result;
-  AdaptiveSolver<2>(scene_of(entries))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            result.energy = std::sqrt(std::abs(step.energies.energy - exact));
-            for (const ContactState<2> &contact : step.contact)
-              for (const ContactPoint<2> &point : contact.points)
-                result.pressure = std::max({result.pressure, std::abs(point.normal_traction + fit),
-                                            std::abs(point.tangential_traction)});
-          });
+  each_step<2>(scene_of(entries),
+               [&](const StepReport<2> &step)
+               {
+                 result.energy = std::sqrt(std::abs(step.energies.energy - exact));
+                 for (const ContactState<2> &contact : step.contact)
+                   for (const ContactPoint<2> &point : contact.points)
+                     result.pressure =
+                         std::max({result.pressure, std::abs(point.normal_traction + fit),
+                                   std::abs(point.tangential_traction)});
+               });
   return result;
 }
 
@@ -311,7 +310,7 @@ TEST(DrawnPairs, FitAsEachFreeMeshAloneDoes)
   std::mt19937 random(11);
   std::array<std::vector<Ring>, 2> rings;
   for (const unsigned int body : {0, 1})
-    for (const unsigned int n : {4, 5, 7, 9, 12})
+    for (const unsigned int n : {4, 7, 12})
     {
       const std::string name = (body == 0 ? "pin" : "sheet") + std::to_string(n),
                         file = free_ring(name, 1 + body, n, random),
@@ -381,9 +380,8 @@ TEST(DrawnPairs, EndWithCellsThatHangOverAltogether)
            {{"Body " + slave + "/Graded towards", in_digits(end[0]) + ", " + in_digits(end[1])},
             {"Body " + slave + "/Grading levels", std::to_string(levels)}}});
       double mean = 0;
-      AdaptiveSolver<2>(scene_of(entries))
-          .run([&](const StepReport<2> &step)
-               { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
+      each_step<2>(scene_of(entries), [&](const StepReport<2> &step)
+                   { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
       EXPECT_NEAR(mean / fit, 1, 1e-3) << curve << " " << levels << " " << over << " " << slave;
     }
 }
@@ -403,9 +401,8 @@ TEST(DrawnPairs, CloseADistanceWhereVerticesNearlyMeet)
     const auto pressure = [&](const Overrides &bodies)
     {
       double mean = 0;
-      AdaptiveSolver<2>(scene_of(joined({entries, bodies})))
-          .run([&](const StepReport<2> &step)
-               { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
+      each_step<2>(scene_of(joined({entries, bodies})), [&](const StepReport<2> &step)
+                   { mean = -step.contact.at(0).normal_resultant / step.contact[0].area; });
       return mean;
     };
     const double of_shapes =

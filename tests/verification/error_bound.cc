@@ -161,11 +161,6 @@ struct Body
   Overrides overrides;
 };
 
-void PrintTo(const Body &body, std::ostream *out)
-{
-  *out << body.name;
-}
-
 using Admissible = ::testing::TestWithParam<Body>;
 
 void expect_admissible(const Solution<2> &solution, const EquilibratedStress &stress)
@@ -389,28 +384,26 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
   };
   const std::string file = ::testing::TempDir() + "waves-" + std::to_string(std::random_device()());
   double low = 0, high = 0, of_reference = 0;
-  AdaptiveSolver<2>(with({given::steps("hpa3", "9")}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            std::ofstream out(file);
-            write_solution(out, step.field, step.energies.energy);
-            of_reference = step.bound->total;
-            low = step.energies.energy - step.bound->energy_below;
-            high = step.energies.energy + step.bound->energy_above;
-          });
-  AdaptiveSolver<2>(with({given::steps("hup2", "3"), {"Error/Reference solution", file}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            EXPECT_LT(of_reference, 0.05 * step.errors.energy);
-            EXPECT_GE(step.bound->total, step.errors.energy - of_reference);
-            EXPECT_LE(step.bound->total, 3 * step.errors.energy);
-            EXPECT_LE(step.energies.energy - step.bound->energy_below, high);
-            EXPECT_GE(step.energies.energy + step.bound->energy_above, low);
-          });
+  each_step<2>(with({given::steps("hpa3", "9")}),
+               [&](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 std::ofstream out(file);
+                 write_solution(out, step.field, step.energies.energy);
+                 of_reference = step.bound->total;
+                 low = step.energies.energy - step.bound->energy_below;
+                 high = step.energies.energy + step.bound->energy_above;
+               });
+  each_step<2>(with({given::steps("hup2", "3"), {"Error/Reference solution", file}}),
+               [&](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 EXPECT_LT(of_reference, 0.05 * step.errors.energy);
+                 EXPECT_GE(step.bound->total, step.errors.energy - of_reference);
+                 EXPECT_LE(step.bound->total, 3 * step.errors.energy);
+                 EXPECT_LE(step.energies.energy - step.bound->energy_below, high);
+                 EXPECT_GE(step.energies.energy + step.bound->energy_above, low);
+               });
   std::filesystem::remove(file);
 }
 
@@ -418,32 +411,31 @@ TEST(ErrorBoundOfUnilateralContact, PaysForWavesOfTheGap)
 TEST(ErrorBoundOfUnilateralContact, IsNearWhereTheHeldEndIsOpen)
 {
   for (const std::string contact : {"nodes", "multiplier"})
-    AdaptiveSolver<2>(scene_of({given::box("2, 1", "2, 1"),
-                                {"Boundary right/Displacement", "0; 0"},
-                                {"Boundary top/Traction", "0; -0.1"},
-                                {"Boundary bottom/Contact", "unilateral"},
-                                {"Boundary bottom/Gap", "0.02 + 0.02*x"},
-                                {"Solver/Normal contact", contact},
-                                given::steps("hup2", "1")}))
-        .run(
-            [](const StepReport<2> &step)
-            {
-              ASSERT_TRUE(step.bound) << step.no_bound;
-              EXPECT_LT(step.bound->slip, 1.5 * step.bound->stress); // 2.4 to 2.7 times otherwise
-            });
+    each_step<2>(scene_of({given::box("2, 1", "2, 1"),
+                           {"Boundary right/Displacement", "0; 0"},
+                           {"Boundary top/Traction", "0; -0.1"},
+                           {"Boundary bottom/Contact", "unilateral"},
+                           {"Boundary bottom/Gap", "0.02 + 0.02*x"},
+                           {"Solver/Normal contact", contact},
+                           given::steps("hup2", "1")}),
+                 [](const StepReport<2> &step)
+                 {
+                   ASSERT_TRUE(step.bound) << step.no_bound;
+                   EXPECT_LT(step.bound->slip,
+                             1.5 * step.bound->stress); // 2.4 to 2.7 times otherwise
+                 });
 }
 
 /** Tangent and normal are the unknowns at the vertices there; w is small beside the error. */
 TEST(ErrorBoundOfUnilateralContact, IsNearOnASlantedBoundary)
 {
-  AdaptiveSolver<2>(shipped_scene("han-6-12-unilateral", {given::quadrilateral("Geometry", rotated),
-                                                          {"Adaptivity/Maximum steps", "12"}}))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            EXPECT_LT(step.bound->slip, step.bound->stress);
-          });
+  each_step<2>(shipped_scene("han-6-12-unilateral", {given::quadrilateral("Geometry", rotated),
+                                                     {"Adaptivity/Maximum steps", "12"}}),
+               [](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 EXPECT_LT(step.bound->slip, step.bound->stress);
+               });
 }
 
 using Effectivity = ::testing::TestWithParam<Body>;

@@ -187,8 +187,8 @@ TEST(InfSup, OffsetsThatCannotWorkAreRefused)
   EXPECT_THROW(scene_with("0"), InputError);
   EXPECT_THROW(scene_with("-9"), InputError); // a negative degree
   std::vector<std::string> warnings;
-  AdaptiveSolver<2>(scene_with("-1"))
-      .run([&](const StepReport<2> &step) { warnings = texts(step.warnings); });
+  each_step<2>(scene_with("-1"),
+               [&](const StepReport<2> &step) { warnings = texts(step.warnings); });
   EXPECT_TRUE(mentions(warnings, "inf-sup"));
 }
 } // namespace

@@ -312,14 +312,14 @@ TEST(MissedData, AreToldWhereAFinerMeshSeesThem)
                                    {"Adaptivity/Tolerance", "0"}};
     all.insert(all.end(), entries.begin(), entries.end());
     std::string told;
-    AdaptiveSolver<2>(verification::scene_of(all))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              for (const Warning &warning : step.warnings)
-                if (warning.text.find("steps before knew nothing") != std::string::npos)
-                  told = warning.text;
-            });
+    verification::each_step<2>(verification::scene_of(all),
+                               [&](const StepReport<2> &step)
+                               {
+                                 for (const Warning &warning : step.warnings)
+                                   if (warning.text.find("steps before knew nothing") !=
+                                       std::string::npos)
+                                     told = warning.text;
+                               });
     EXPECT_EQ(told.find(words), 0U) << words << ": " << told;
   }
 }

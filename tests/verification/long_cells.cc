@@ -93,11 +93,6 @@ struct Loose
   double limit; ///< of bound/error
 };
 
-void PrintTo(const Loose &loose, std::ostream *out)
-{
-  *out << loose.body.name;
-}
-
 using LongCells = ::testing::TestWithParam<Loose>;
 
 /** The energies of a finer mesh tell the error, by Galerkin's orthogonality: a little too small. */

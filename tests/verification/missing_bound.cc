@@ -154,19 +154,18 @@ using AnyReason = ::testing::TestWithParam<Reason>;
 TEST_P(AnyReason, IsSaidWithTheNumber)
 {
   const Reason &reason = GetParam();
-  AdaptiveSolver<2>(scene_of(reason.scene))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            EXPECT_FALSE(step.bound);
-            EXPECT_EQ(step.no_bound.find(reason.words), 0U) << step.no_bound;
-            const std::size_t end = step.no_bound.find(reason.number);
-            ASSERT_NE(end, std::string::npos) << step.no_bound;
-            const std::size_t begin = step.no_bound.rfind(' ', end - 1) + 1;
-            const double number = std::stod(step.no_bound.substr(begin, end - begin));
-            EXPECT_GT(number, 1e-9);
-            EXPECT_LT(number, 1.);
-          });
+  each_step<2>(scene_of(reason.scene),
+               [&](const StepReport<2> &step)
+               {
+                 EXPECT_FALSE(step.bound);
+                 EXPECT_EQ(step.no_bound.find(reason.words), 0U) << step.no_bound;
+                 const std::size_t end = step.no_bound.find(reason.number);
+                 ASSERT_NE(end, std::string::npos) << step.no_bound;
+                 const std::size_t begin = step.no_bound.rfind(' ', end - 1) + 1;
+                 const double number = std::stod(step.no_bound.substr(begin, end - begin));
+                 EXPECT_GT(number, 1e-9);
+                 EXPECT_LT(number, 1.);
+               });
 }
 
 /** Stresses there know the pieces of a body force, and none of an initial strain. */
@@ -194,18 +193,17 @@ TEST(MissingBound, IsSaidWhereStrainsAreCutInCellsThatAreNoParallelograms)
 
 TEST(MissingBound, KeepsItsImbalance)
 {
-  AdaptiveSolver<2>(scene_of(graded))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            EXPECT_GT(step.bound_imbalance, 1e-9);
-            EXPECT_NE(
-                step.no_bound.find(
-                    hpvi::text(step.bound_imbalance, 2) +
-                    " of their stresses, at (20, 0): round-off, in cells of 1.5e-09 of the body"),
-                std::string::npos)
-                << step.no_bound;
-          });
+  each_step<2>(
+      scene_of(graded),
+      [&](const StepReport<2> &step)
+      {
+        EXPECT_GT(step.bound_imbalance, 1e-9);
+        EXPECT_NE(step.no_bound.find(
+                      hpvi::text(step.bound_imbalance, 2) +
+                      " of their stresses, at (20, 0): round-off, in cells of 1.5e-09 of the body"),
+                  std::string::npos)
+            << step.no_bound;
+      });
 }
 
 /** A step without a bound after one that has it. */
@@ -249,16 +247,15 @@ TEST(SmallBump, BetweenTheNodesCounts)
   };
   const std::string bump = "exp(-((x - 0.37)/0.02)^2)";
   double norm = 0;
-  AdaptiveSolver<2>(scene("0; 1e-3*" + bump, {{"Adaptivity/Maximum steps", "9"}}))
-      .run([&](const StepReport<2> &step) { norm = step.energies.norm; });
-  AdaptiveSolver<2>(scene("0; -0.01 + 5e-11*" + bump, {}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            EXPECT_GT(step.bound->data, 5e-8 * norm);
-            EXPECT_LT(step.bound->data, 50 * 5e-8 * norm);
-          });
+  each_step<2>(scene("0; 1e-3*" + bump, {{"Adaptivity/Maximum steps", "9"}}),
+               [&](const StepReport<2> &step) { norm = step.energies.norm; });
+  each_step<2>(scene("0; -0.01 + 5e-11*" + bump, {}),
+               [&](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 EXPECT_GT(step.bound->data, 5e-8 * norm);
+                 EXPECT_LT(step.bound->data, 50 * 5e-8 * norm);
+               });
 }
 /**
  * Three cells around the middle of a hexagon, held at one edge and pulled at the opposite one, with contact beside it: what is
@@ -298,16 +295,15 @@ TEST(MeshOfAFile, HasABoundWhereCellsTurn)
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::pair<double, double>> energies; // of each step, with the bound
     for (const auto &[method, steps] : {std::pair("pu", "6"), std::pair("hpa3", "9")})
-      AdaptiveSolver<2>(hexagon(shift, {given::steps(method, steps, "2")}))
-          .run(
-              [&](const StepReport<2> &step)
-              {
-                ASSERT_TRUE(step.bound) << step.no_bound;
-                EXPECT_LT(step.bound_imbalance, 1e-9);
-                EXPECT_LT(step.bound->total, step.scaled_estimate) << method << step.number;
-                energies.emplace_back(step.energies.energy, step.bound->total);
-                least = std::min(least, step.energies.energy);
-              });
+      each_step<2>(hexagon(shift, {given::steps(method, steps, "2")}),
+                   [&](const StepReport<2> &step)
+                   {
+                     ASSERT_TRUE(step.bound) << step.no_bound;
+                     EXPECT_LT(step.bound_imbalance, 1e-9);
+                     EXPECT_LT(step.bound->total, step.scaled_estimate) << method << step.number;
+                     energies.emplace_back(step.energies.energy, step.bound->total);
+                     least = std::min(least, step.energies.energy);
+                   });
     ASSERT_EQ(energies.size(), 15U);
     for (const auto &[energy, bound] : energies)
       EXPECT_GE(bound, std::sqrt(2 * (energy - least)));

@@ -362,22 +362,21 @@ TEST_P(PlaneStrainScene, HasTheEnergiesOfTheClosedForm)
   // int g (kappa A/mu) (-x)^{3/2} over the slip zone
   const double friction = 4. / 15 * kappa * g * g / (mu * (1 + kappa));
   unsigned int n_steps = 0;
-  AdaptiveSolver<2>(shipped_scene("plane-strain", {{"Material/Poisson's ratio", GetParam()}}))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            ++n_steps;
-            EXPECT_NEAR(std::pow(step.errors.energy_norm, 2), a, 1e-12);
-            EXPECT_NEAR(step.errors.reference_energy, 0.5 * a + friction, 1e-12);
-            if (step.stopped_by.empty())
-              return;
-            const Energies &e = step.energies;
-            EXPECT_LT(step.errors.energy, 1e-6);
-            EXPECT_NEAR(e.norm * e.norm, a, 1e-6);
-            EXPECT_NEAR(e.energy - 0.5 * e.norm * e.norm, friction, 1e-6); // no load works
-            EXPECT_NEAR(step.contact.at(0).friction_resultant, -4. / 3 * g,
-                        1e-6); // lambda = 1, then 1 - sqrt(x)
-          });
+  each_step<2>(shipped_scene("plane-strain", {{"Material/Poisson's ratio", GetParam()}}),
+               [&](const StepReport<2> &step)
+               {
+                 ++n_steps;
+                 EXPECT_NEAR(std::pow(step.errors.energy_norm, 2), a, 1e-12);
+                 EXPECT_NEAR(step.errors.reference_energy, 0.5 * a + friction, 1e-12);
+                 if (step.stopped_by.empty())
+                   return;
+                 const Energies &e = step.energies;
+                 EXPECT_LT(step.errors.energy, 1e-6);
+                 EXPECT_NEAR(e.norm * e.norm, a, 1e-6);
+                 EXPECT_NEAR(e.energy - 0.5 * e.norm * e.norm, friction, 1e-6); // no load works
+                 EXPECT_NEAR(step.contact.at(0).friction_resultant, -4. / 3 * g,
+                             1e-6); // lambda = 1, then 1 - sqrt(x)
+               });
   EXPECT_GE(n_steps, 15u);
 }
 

@@ -169,9 +169,8 @@ TEST(SlenderCantilever, BeyondAllPrecisionIsRefused)
 TEST(IterativeRefinement, LeavesOrdinaryBodiesAlone)
 {
   for (const std::string name : {"han-6-12", "han-6-13", "stick-slip"})
-    AdaptiveSolver<2>(shipped_scene(name))
-        .run([&](const StepReport<2> &step)
-             { EXPECT_EQ(step.reduced->algebraic.corrections, 0u) << name; });
+    each_step<2>(shipped_scene(name), [&](const StepReport<2> &step)
+                 { EXPECT_EQ(step.reduced->algebraic.corrections, 0u) << name; });
 }
 
 /** A displacement spoilt at random comes back, whatever data the scene has. */
@@ -308,15 +307,14 @@ TEST(FarDisplacement, OfABodyThatIsOnlyMovedIsASolution)
                            given::box("2, 2", "2, 3"),
                            {"Material/Young's modulus", "221.725"}};
   unsigned int steps = 0;
-  AdaptiveSolver<2>(shipped_scene("han-6-12", moved))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            ++steps;
-            EXPECT_LE(step.energies.norm, 1e-13);
-            EXPECT_EQ(step.reduced->algebraic.relative, 0.);
-            EXPECT_EQ(text(step.stopped_by), "round-off");
-          });
+  each_step<2>(shipped_scene("han-6-12", moved),
+               [&](const StepReport<2> &step)
+               {
+                 ++steps;
+                 EXPECT_LE(step.energies.norm, 1e-13);
+                 EXPECT_EQ(step.reduced->algebraic.relative, 0.);
+                 EXPECT_EQ(text(step.stopped_by), "round-off");
+               });
   EXPECT_EQ(steps, 1u);
 }
 
@@ -346,15 +344,14 @@ TEST(Floor, NothingActsAndNothingMoves)
                               {"Boundary top/Gap", "100"},
                               {"Adaptivity/Method", "pu"},
                               {"Solver/QP solver", "mprgp"}};
-  AdaptiveSolver<2>(scene_of(unloaded))
-      .run(
-          [](const StepReport<2> &step)
-          {
-            EXPECT_EQ(step.number, 1u);
-            EXPECT_EQ(text(step.stopped_by), "round-off");
-            EXPECT_EQ(step.solution().u.linfty_norm(), 0.);
-            EXPECT_EQ(step.solution().z.linfty_norm(), 0.);
-          });
+  each_step<2>(scene_of(unloaded),
+               [](const StepReport<2> &step)
+               {
+                 EXPECT_EQ(step.number, 1u);
+                 EXPECT_EQ(text(step.stopped_by), "round-off");
+                 EXPECT_EQ(step.solution().u.linfty_norm(), 0.);
+                 EXPECT_EQ(step.solution().z.linfty_norm(), 0.);
+               });
 }
 
 TEST(Floor, AnExactSolutionStopsTheRun)
@@ -399,21 +396,20 @@ TEST(Floor, OfABodyUnderHeat)
     {
       double relative = 1;
       std::string stopped_by;
-      AdaptiveSolver<2>(scene_of({given::box("2, 1", "6, 3"),
-                                  {"Material/Plane", plane},
-                                  {"Material/Thermal expansion", "1e-5"},
-                                  {"Temperature/Expression", heat},
-                                  given::symmetric({"left", "right", "top", "bottom"}),
-                                  {"Error/Bound", "false"},
-                                  given::steps("pu", "20"),
-                                  {"Adaptivity/Maximum degree", "20"},
-                                  {"Adaptivity/Tolerance", "0"}}))
-          .run(
-              [&](const StepReport<2> &step)
-              {
-                stopped_by = text(step.stopped_by);
-                relative = step.relative_estimate;
-              });
+      each_step<2>(scene_of({given::box("2, 1", "6, 3"),
+                             {"Material/Plane", plane},
+                             {"Material/Thermal expansion", "1e-5"},
+                             {"Temperature/Expression", heat},
+                             given::symmetric({"left", "right", "top", "bottom"}),
+                             {"Error/Bound", "false"},
+                             given::steps("pu", "20"),
+                             {"Adaptivity/Maximum degree", "20"},
+                             {"Adaptivity/Tolerance", "0"}}),
+                   [&](const StepReport<2> &step)
+                   {
+                     stopped_by = text(step.stopped_by);
+                     relative = step.relative_estimate;
+                   });
       EXPECT_EQ(stopped_by, "round-off") << heat << " " << plane;
       EXPECT_LT(relative, 1e-10) << heat << " " << plane;
     }
@@ -458,15 +454,14 @@ TEST(Floor, OfABodyThatExpandsFreely)
       entries.push_back(entry);
     }
     std::string stopped_by;
-    AdaptiveSolver<2>(scene_of(entries))
-        .run(
-            [&, name = name](const StepReport<2> &step)
-            {
-              stopped_by = text(step.stopped_by);
-              EXPECT_LE(step.number, 4U) << name;
-              EXPECT_TRUE(step.bound) << name << ": " << step.no_bound;
-              EXPECT_LT(step.bound_imbalance, 1e-9) << name;
-            });
+    each_step<2>(scene_of(entries),
+                 [&, name = name](const StepReport<2> &step)
+                 {
+                   stopped_by = text(step.stopped_by);
+                   EXPECT_LE(step.number, 4U) << name;
+                   EXPECT_TRUE(step.bound) << name << ": " << step.no_bound;
+                   EXPECT_LT(step.bound_imbalance, 1e-9) << name;
+                 });
     EXPECT_EQ(stopped_by, "round-off") << name;
   }
 }

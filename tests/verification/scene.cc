@@ -265,11 +265,6 @@ struct Mistake
   std::function<void(Scene<2> &)> make;
 };
 
-void PrintTo(const Mistake &mistake, std::ostream *out)
-{
-  *out << mistake.words;
-}
-
 using WrongScene = ::testing::TestWithParam<Mistake>;
 
 TEST_P(WrongScene, IsRefused)

@@ -99,8 +99,8 @@ TEST(Semicoercive, TheLimitIsSeenOnAdaptiveMeshes)
 TEST(Semicoercive, TheTranslationOfAStepStartsTheNext)
 {
   std::vector<unsigned int> solves;
-  AdaptiveSolver<2>(shipped_scene("semicoercive"))
-      .run([&](const StepReport<2> &step) { solves.push_back(step.reduced->qp.dense_solves); });
+  each_step<2>(shipped_scene("semicoercive"),
+               [&](const StepReport<2> &step) { solves.push_back(step.reduced->qp.dense_solves); });
   ASSERT_GE(solves.size(), 12u);
   EXPECT_LE(std::accumulate(solves.begin() + 4, solves.end(), 0u), 6 * (solves.size() - 4));
 }

@@ -16,14 +16,14 @@ double deflection(const double k)
 {
   const double force = 1e-3;
   double result = 0;
-  AdaptiveSolver<2>(scene_of({given::box("-60, 0", "60, 1", "60, 1"),
-                              given::elastic("12", "0"),
-                              {"Material/Plane", "stress"},
-                              {"Boundary bottom/Spring", std::to_string(k) + "; 0"},
-                              {"Boundary left/Displacement", "0; free"},
-                              {"Boundary top/Traction", "0; -0.001*(abs(x) < 0.5)"},
-                              given::steps("hup4", "1")}))
-      .run([&](const StepReport<2> &step) { result = -2 * step.energies.energy / force; });
+  each_step<2>(scene_of({given::box("-60, 0", "60, 1", "60, 1"),
+                         given::elastic("12", "0"),
+                         {"Material/Plane", "stress"},
+                         {"Boundary bottom/Spring", std::to_string(k) + "; 0"},
+                         {"Boundary left/Displacement", "0; free"},
+                         {"Boundary top/Traction", "0; -0.001*(abs(x) < 0.5)"},
+                         given::steps("hup4", "1")}),
+               [&](const StepReport<2> &step) { result = -2 * step.energies.energy / force; });
   return result;
 }
 
@@ -133,32 +133,30 @@ using SupportBound = ::testing::TestWithParam<unsigned int>;
 TEST_P(SupportBound, HoldsAndIsNear)
 {
   double J = 0, doubt = 0;
-  AdaptiveSolver<2>(variant(GetParam(), "hpa3", 14))
-      .run(
-          [&](const StepReport<2> &step)
-          {
-            ASSERT_TRUE(step.bound) << step.no_bound;
-            J = step.energies.energy;
-            doubt = step.bound->energy_below + step.bound->energy_above;
-          });
+  each_step<2>(variant(GetParam(), "hpa3", 14),
+               [&](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 J = step.energies.energy;
+                 doubt = step.bound->energy_below + step.bound->energy_above;
+               });
   for (const std::string method : {"hup2", "hup3", "hpa3"})
-    AdaptiveSolver<2>(variant(GetParam(), method, 3))
-        .run(
-            [&](const StepReport<2> &step)
-            {
-              ASSERT_TRUE(step.bound) << step.no_bound;
-              EXPECT_LE(step.energies.energy - step.bound->energy_below, J + doubt) << method;
-              EXPECT_GE(step.energies.energy + step.bound->energy_above, J - doubt) << method;
-              if (GetParam() == 3 || GetParam() == 10 ||
-                  GetParam() == 12) // penetrates: J(u_N) is no upper bound
-                return;
-              const double error = std::sqrt(2 * std::max(0., step.energies.energy - J));
-              EXPECT_GE(step.bound->total, 0.999 * error) << method;
-              EXPECT_LE(step.bound->total, 2.2 * error + std::sqrt(2 * doubt)) << method;
-              const double indicator = step.scaled_estimate / error;
-              EXPECT_GT(indicator, 1.) << method;
-              EXPECT_LT(indicator, largest_indicator(GetParam())) << method;
-            });
+    each_step<2>(variant(GetParam(), method, 3),
+                 [&](const StepReport<2> &step)
+                 {
+                   ASSERT_TRUE(step.bound) << step.no_bound;
+                   EXPECT_LE(step.energies.energy - step.bound->energy_below, J + doubt) << method;
+                   EXPECT_GE(step.energies.energy + step.bound->energy_above, J - doubt) << method;
+                   if (GetParam() == 3 || GetParam() == 10 ||
+                       GetParam() == 12) // penetrates: J(u_N) is no upper bound
+                     return;
+                   const double error = std::sqrt(2 * std::max(0., step.energies.energy - J));
+                   EXPECT_GE(step.bound->total, 0.999 * error) << method;
+                   EXPECT_LE(step.bound->total, 2.2 * error + std::sqrt(2 * doubt)) << method;
+                   const double indicator = step.scaled_estimate / error;
+                   EXPECT_GT(indicator, 1.) << method;
+                   EXPECT_LT(indicator, largest_indicator(GetParam())) << method;
+                 });
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SupportBound, ::testing::Range(0U, 16U));

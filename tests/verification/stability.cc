@@ -255,13 +255,12 @@ TEST(TinyContact, IsFoundBetweenPoints)
       overrides.push_back({"Adaptivity/Maximum steps", steps});
       double error = 1;
       std::vector<std::string> warnings;
-      AdaptiveSolver<2>(shipped_scene("hertz", overrides))
-          .run(
-              [&](const StepReport<2> &step)
-              {
-                error = step.errors.energy / step.errors.energy_norm;
-                warnings = texts(step.warnings);
-              });
+      each_step<2>(shipped_scene("hertz", overrides),
+                   [&](const StepReport<2> &step)
+                   {
+                     error = step.errors.energy / step.errors.energy_norm;
+                     warnings = texts(step.warnings);
+                   });
       if (steps == "3")
         EXPECT_TRUE(mentions(warnings, "contact is smaller than the mesh sees")) << normal;
       else

@@ -123,14 +123,14 @@ TEST(VonMises, OfABlockIsKnown)
   for (const std::string plane : {"stress", "strain"})
   {
     double largest = 0;
-    AdaptiveSolver<2>(scene_of({{"Geometry/Subdivisions", "2, 1"},
-                                given::elastic("10", "0.3"),
-                                {"Material/Plane", plane},
-                                {"Boundary left/Displacement", "0; free"},
-                                {"Boundary bottom/Displacement", "free; 0"},
-                                {"Boundary top/Traction", "0; -2"},
-                                {"Adaptivity/Maximum steps", "1"}}))
-        .run([&](const StepReport<2> &step) { largest = step.extrema.at(0).value; });
+    each_step<2>(scene_of({{"Geometry/Subdivisions", "2, 1"},
+                           given::elastic("10", "0.3"),
+                           {"Material/Plane", plane},
+                           {"Boundary left/Displacement", "0; free"},
+                           {"Boundary bottom/Displacement", "free; 0"},
+                           {"Boundary top/Traction", "0; -2"},
+                           {"Adaptivity/Maximum steps", "1"}}),
+                 [&](const StepReport<2> &step) { largest = step.extrema.at(0).value; });
     // sigma_yy = -2; under plane strain sigma_zz = -0.6
     const double expected = plane == "stress" ? 2. : std::sqrt(4. + 0.36 - 1.2);
     EXPECT_NEAR(largest, expected, 1e-9);
@@ -174,15 +174,14 @@ TEST(StressSingularity, IsSaidOfPunches)
     {
       std::vector<StressSingularity<2>> pressures;
       double force = 0;
-      AdaptiveSolver<2>(shipped_scene(scene, {{"Adaptivity/Maximum steps", steps}}))
-          .run(
-              [&](const StepReport<2> &step)
-              {
-                force = -step.contact.at(0).normal_resultant;
-                for (const StressSingularity<2> &stress : step.unbounded)
-                  if (stress.peak.boundary != body)
-                    pressures.push_back(stress);
-              });
+      each_step<2>(shipped_scene(scene, {{"Adaptivity/Maximum steps", steps}}),
+                   [&](const StepReport<2> &step)
+                   {
+                     force = -step.contact.at(0).normal_resultant;
+                     for (const StressSingularity<2> &stress : step.unbounded)
+                       if (stress.peak.boundary != body)
+                         pressures.push_back(stress);
+                   });
       ASSERT_EQ(pressures.size(), 1U) << scene << " after " << steps;
       const StressSingularity<2> &edge = pressures[0];
       EXPECT_EQ(edge.where, (Point<2>(1, 0)));
@@ -264,8 +263,8 @@ TEST(StressSingularity, IsSeenInHistoriesAsWithoutThem)
     };
     std::vector<Place> exact;
     const Overrides limits = {{"Adaptivity/Tolerance", "0"}, {"Adaptivity/Maximum steps", "10"}};
-    AdaptiveSolver<2>(scene_of(with(with(row.entries, row.last), limits)))
-        .run([&](const StepReport<2> &step) { exact = unbounded(step); });
+    each_step<2>(scene_of(with(with(row.entries, row.last), limits)),
+                 [&](const StepReport<2> &step) { exact = unbounded(step); });
     EXPECT_EQ(exact.empty(), row.bounded) << row.name;
     for (const std::string adapt : {"first step", "every step"})
       LoadHistory<2>(scene_of(with(with(row.entries, limits),

@@ -143,27 +143,26 @@ TEST(Equilibrium, OfABlockIsKnown)
                                    {"Boundary top/Traction", "-0.1; -0.3"},
                                    {"Body force/Expression", "0; -0.05"},
                                    {"Adaptivity/Maximum steps", "3"}});
-  AdaptiveSolver<2>(scene).run(
-      [](const StepReport<2> &step)
-      {
-        if (step.stopped_by.empty())
-          return;
-        const Equilibrium<2> &e = step.equilibrium;
-        EXPECT_NEAR(e.loads.force[0], -0.2, 1e-14);
-        EXPECT_NEAR(e.loads.force[1], -0.7, 1e-14);
-        EXPECT_NEAR(e.loads.moment, 0.1, 1e-14); // the shear acts half a unit above the centre
-        ASSERT_EQ(e.reactions.size(), 2u);
-        const BoundaryForce<2> &wall = e.reactions[0], &floor = e.reactions[1];
-        EXPECT_EQ(wall.boundary, "left");
-        EXPECT_EQ(floor.boundary, "bottom");
-        EXPECT_NEAR(floor.force[0], step.contact.at(0).friction_resultant, 1e-12);
-        EXPECT_NEAR(wall.force[0] + floor.force[0], 0.2, 1e-12);
-        EXPECT_NEAR(wall.force[1], 0., 1e-12);
-        EXPECT_NEAR(floor.force[1], 0.7, 1e-12);
-        EXPECT_NEAR(wall.moment + floor.moment, -0.1, 1e-12);
-        EXPECT_LE(e.force_imbalance, 1e-13);
-        EXPECT_LE(e.moment_imbalance, 1e-13);
-      });
+  last_step<2>(scene,
+               [](const StepReport<2> &step)
+               {
+                 const Equilibrium<2> &e = step.equilibrium;
+                 EXPECT_NEAR(e.loads.force[0], -0.2, 1e-14);
+                 EXPECT_NEAR(e.loads.force[1], -0.7, 1e-14);
+                 EXPECT_NEAR(e.loads.moment, 0.1,
+                             1e-14); // the shear acts half a unit above the centre
+                 ASSERT_EQ(e.reactions.size(), 2u);
+                 const BoundaryForce<2> &wall = e.reactions[0], &floor = e.reactions[1];
+                 EXPECT_EQ(wall.boundary, "left");
+                 EXPECT_EQ(floor.boundary, "bottom");
+                 EXPECT_NEAR(floor.force[0], step.contact.at(0).friction_resultant, 1e-12);
+                 EXPECT_NEAR(wall.force[0] + floor.force[0], 0.2, 1e-12);
+                 EXPECT_NEAR(wall.force[1], 0., 1e-12);
+                 EXPECT_NEAR(floor.force[1], 0.7, 1e-12);
+                 EXPECT_NEAR(wall.moment + floor.moment, -0.1, 1e-12);
+                 EXPECT_LE(e.force_imbalance, 1e-13);
+                 EXPECT_LE(e.moment_imbalance, 1e-13);
+               });
 }
 
 /** Friction on two boundaries: each gets its own force, opposite tangents or not. */
@@ -174,18 +173,16 @@ TEST(Equilibrium, TellsTwoContactsApart)
                                    given::rough("top", "bilateral", "0.03"),
                                    {"Boundary right/Displacement", "0.2; free"},
                                    {"Adaptivity/Maximum steps", "3"}});
-  AdaptiveSolver<2>(scene).run(
-      [](const StepReport<2> &step)
-      {
-        if (step.stopped_by.empty())
-          return;
-        ASSERT_EQ(step.equilibrium.reactions.size(), 3u);
-        // everything slips to the right
-        EXPECT_NEAR(step.equilibrium.reactions[1].force[0], -0.03, 1e-12);
-        EXPECT_NEAR(step.equilibrium.reactions[2].force[0], -0.09, 1e-12);
-        EXPECT_NEAR(step.equilibrium.reactions[0].force[0], 0.12, 1e-12);
-        EXPECT_LE(step.equilibrium.force_imbalance, 1e-13);
-      });
+  last_step<2>(scene,
+               [](const StepReport<2> &step)
+               {
+                 ASSERT_EQ(step.equilibrium.reactions.size(), 3u);
+                 // everything slips to the right
+                 EXPECT_NEAR(step.equilibrium.reactions[1].force[0], -0.03, 1e-12);
+                 EXPECT_NEAR(step.equilibrium.reactions[2].force[0], -0.09, 1e-12);
+                 EXPECT_NEAR(step.equilibrium.reactions[0].force[0], 0.12, 1e-12);
+                 EXPECT_LE(step.equilibrium.force_imbalance, 1e-13);
+               });
 }
 
 /** A solution that is none: forces that do not balance are seen. */

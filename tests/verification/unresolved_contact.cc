@@ -181,8 +181,8 @@ TEST(NarrowGap, IsWarnedOfUntilThePressureIsRight)
 TEST(NarrowGap, IsNamedWithItsPlace)
 {
   std::vector<std::string> lines;
-  AdaptiveSolver<2>(pressed({{"Boundary bottom/Gap", bump}, {"Adaptivity/Maximum steps", "1"}}))
-      .run([&](const StepReport<2> &step) { lines = texts(step.warnings); });
+  each_step<2>(pressed({{"Boundary bottom/Gap", bump}, {"Adaptivity/Maximum steps", "1"}}),
+               [&](const StepReport<2> &step) { lines = texts(step.warnings); });
   EXPECT_TRUE(mentions(lines, "Gap varies inside 1 edge more than the points of the contact "
                               "conditions see: near (0.37 0) it is -0.005 mm"))
       << (lines.empty() ? "" : lines[0]);
@@ -211,9 +211,8 @@ TEST(NarrowGap, CountsWhereTheBodyReaches)
 TEST(NarrowGap, IsNeverSeenInSmoothScenes)
 {
   for (const std::string scene : {"hertz", "punch", "punch-friction"})
-    AdaptiveSolver<2>(shipped_scene(scene, {{"Adaptivity/Maximum steps", "6"}}))
-        .run(
-            [&](const StepReport<2> &step)
-            { EXPECT_TRUE(unseen_gaps(step.solution()).empty()) << scene << ", " << step.number; });
+    each_step<2>(
+        shipped_scene(scene, {{"Adaptivity/Maximum steps", "6"}}), [&](const StepReport<2> &step)
+        { EXPECT_TRUE(unseen_gaps(step.solution()).empty()) << scene << ", " << step.number; });
 }
 } // namespace
