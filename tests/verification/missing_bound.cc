@@ -174,21 +174,20 @@ TEST(MissingBound, IsSaidWhereStrainsAreCutInCellsThatAreNoParallelograms)
   for (const auto &[entry, value] :
        Overrides{{"Body force/Expression", "if(y > 0.37, 1, 0); 0"},
                  {"Material/Initial strain", "if(y > 0.37, 0.01, 0); 0; 0"}})
-    each_step<2>(
-        scene_of(with(body("0, 0; 2, 0; 1.5, 1; 0.5, 1", "1, 1"),
-                      {{"Boundary bottom/Displacement", "0; 0"},
-                       {entry, value},
-                       {"Error/Bound on distorted cells", "true"},
-                       {"Adaptivity/Maximum steps", "1"}})),
-        [&, is_force = entry.find("Body") == 0](const StepReport<2> &step)
-        {
-          EXPECT_EQ(bool(step.bound), is_force) << step.no_bound;
-          if (is_force)
-            return;
-          EXPECT_EQ(step.no_bound.find("Initial strain"), 0U) << step.no_bound;
-          EXPECT_NE(step.no_bound.find("is cut inside the cell at ("), std::string::npos)
-              << step.no_bound;
-        });
+    each_step<2>(scene_of(with(body("0, 0; 2, 0; 1.5, 1; 0.5, 1", "1, 1"),
+                               {{"Boundary bottom/Displacement", "0; 0"},
+                                {entry, value},
+                                {"Error/Bound on distorted cells", "true"},
+                                {"Adaptivity/Maximum steps", "1"}})),
+                 [&, is_force = entry.find("Body") == 0](const StepReport<2> &step)
+                 {
+                   EXPECT_EQ(bool(step.bound), is_force) << step.no_bound;
+                   if (is_force)
+                     return;
+                   EXPECT_EQ(step.no_bound.find("Initial strain"), 0U) << step.no_bound;
+                   EXPECT_NE(step.no_bound.find("is cut inside the cell at ("), std::string::npos)
+                       << step.no_bound;
+                 });
 }
 
 TEST(MissingBound, KeepsItsImbalance)
