@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <ostream>
 
 namespace hpvi
 {
@@ -29,6 +30,11 @@ std::string text(const StopReason &reason)
 {
   return stop_words[static_cast<unsigned int>(reason.stop)] +
          (reason.stop == Stop::load_step ? std::to_string(reason.load_step) : "");
+}
+
+std::ostream &operator<<(std::ostream &out, const StopReason &reason)
+{
+  return out << text(reason);
 }
 
 StopReason stop_reason_from(const std::string &words)

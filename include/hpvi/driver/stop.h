@@ -2,6 +2,7 @@
 #ifndef hpvi_stop_h
 #define hpvi_stop_h
 
+#include <iosfwd>
 #include <string>
 
 namespace hpvi
@@ -37,6 +38,7 @@ struct StopReason
 
 /** As in files: the name of an entry of Adaptivity, "round-off", "Adapt = first step", "error of load step 2" or nothing. */
 std::string text(const StopReason &reason);
+std::ostream &operator<<(std::ostream &out, const StopReason &reason); ///< text(reason)
 
 /** Of such words. */
 StopReason stop_reason_from(const std::string &words);
