@@ -6,6 +6,7 @@
 #include <hpvi/bound/corner_stress.h>
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/bound/row_element.h>
+#include <hpvi/plane/matching.h>
 
 #include <algorithm>
 #include <cmath>
@@ -415,6 +416,42 @@ TEST(RowStresses, BoundTheErrorOfLamesRing)
         EXPECT_LE(step.bound->imbalance, 1e-13);
         EXPECT_EQ(step.no_intervals, "curved edges change with the degrees of their cells");
       });
+}
+
+/** The bound of a last step alone is that of a run with all of them: no patch takes conditions that are poor for it from another. */
+TEST(RowStresses, BalanceSmallCurvedCells)
+{
+  const Scene<2> scene = scene_of(ring({{"Geometry/Subdivisions", "1, 2"},
+                                        {"Boundary start/Displacement", "0; 0"},
+                                        {"Boundary inner/Shear", "1"},
+                                        {"Adaptivity/Method", "hpa3"},
+                                        {"Adaptivity/Smoothness reading", "joint"},
+                                        {"Adaptivity/Start degree", "3"},
+                                        {"Adaptivity/Indicator", "residual"},
+                                        {"Adaptivity/Maximum steps", "20"},
+                                        {"Error/Bound", "last step"}}));
+  each_step<2>(scene,
+               [](const StepReport<2> &step)
+               {
+                 if (step.stopped_by.empty())
+                   return;
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 EXPECT_LE(step.bound->imbalance, 1e-10);
+               });
+}
+
+/** Contact and symmetry along a curve have no bound, and say on which boundary. */
+TEST(RowStresses, SayWhereNormalsTurn)
+{
+  for (const auto &[entry, value] :
+       Overrides{{"Boundary outer/Contact", "unilateral"}, {"Boundary outer/Symmetry", "true"}})
+    EXPECT_EQ(
+        no_error_bound(scene_of(ring({{"Boundary start/Displacement", "0; 0"}, {entry, value}}))),
+        "the normal of outer turns along a curved edge, and tractions of a stress in "
+        "equilibrium do not follow it");
+  EXPECT_EQ(no_error_bound(scene_of(ring({{"Boundary outer/Displacement", "0; 0"},
+                                          {"Boundary start/Contact", "unilateral"}}))),
+            "");
 }
 
 /** A stress with all that tests ask of it, on a mesh bisected and raised at random. */
