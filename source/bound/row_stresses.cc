@@ -233,7 +233,7 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
       cells(patches.cells().size())
 {
   std::vector<EquilibrationCache::Signature> keys(cells.size());
-  std::vector<unsigned int> degrees(cells.size()), corners(cells.size());
+  std::vector<unsigned int> degrees(cells.size()), corners(cells.size()), points(cells.size());
   const auto set_key = [&](const unsigned int cell)
   {
     const RowShape shape = shape_of(cell);
@@ -245,7 +245,15 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
         keys[cell].push_back(std::lround(x[d] / shape.h * 1e11));
     };
     corners[cell] = outer_corners(patches.cells()[cell].iterator);
-    keys[cell] = {degrees[cell], shape.material, corners[cell]};
+    points[cell] = energy_points(shape.map, degrees[cell]);
+    if (solution.scene.has_initial_strain()) // which is no polynomial of the cell's degree
+      points[cell] = std::max(points[cell],
+                              solution.spaces->loads
+                                      ->initial_strain(patches.cells()[cell].iterator,
+                                                       solution.displacement_space.degrees()[cell])
+                                      .most_points +
+                                  2);
+    keys[cell] = {degrees[cell], shape.material, corners[cell], points[cell]};
     for (const double density : shape.densities)
       keys[cell].push_back(std::lround(density / shape.h * 1e11));
     for (const Point<2> &v : shape.map.vertices())
@@ -266,9 +274,7 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
       {
         const RowShape shape = shape_of(cell);
         return Kept{std::make_unique<const RowElement>(
-                        cache.row_table(degrees[cell], energy_points(shape.map, degrees[cell]),
-                                        corners[cell]),
-                        shape),
+                        cache.row_table(degrees[cell], points[cell], corners[cell]), shape),
                     false};
       });
   for (unsigned int cell = 0; cell < cells.size(); ++cell)

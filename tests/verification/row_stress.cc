@@ -440,6 +440,40 @@ TEST(RowStresses, BalanceSmallCurvedCells)
                });
 }
 
+/** Initial strains are no polynomials of a cell's degree: their distance from s takes the points of their own rule. */
+TEST(RowStresses, SeeInitialStrainsBetweenTheirPoints)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Shape", "quadrilateral"},
+                                   {"Geometry/Corners", "0, 0; 2, 0; 2, 1; 0, 1.000001"},
+                                   {"Geometry/Subdivisions", "1, 1"},
+                                   {"Material/Initial strain", "cos(6*x)*sin(5*y); 0; 0"},
+                                   {"Boundary bottom/Displacement", "0; 0"}});
+  const RandomMesh mesh(scene, 1, 0, 3, 3);
+  const Laboratory lab(scene, mesh);
+  const Solution<2> solution = lab.solve();
+  EquilibrationCache cache;
+  const EquilibratedStress stress(
+      solution, [](unsigned int, unsigned int) { return std::vector<double>(); }, {}, cache);
+  const auto &cell = stress.patches().cells()[0].iterator;
+  const CellMap<2> map = map_of<2>(cell);
+  const HookesLaw<2> law(scene.materials[0]);
+  const Quadrature<2> rule = corner_quadrature({0, 1, 2, 3}, 12);
+  const ShapeTable<2> table = tabulate<2>(3, rule.get_points(), rule.get_weights(), false);
+  const std::vector<double> derivatives = evaluate(table.derivatives, solution.coefficients(0));
+  double square = 0;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const Tensor<2, 2> J = map.jacobian(rule.point(q));
+    const SymmetricTensor<2, 2> missed =
+        symmetrize(stress.value_of_rows(0, rule.point(q))) -
+        law.stress(physical_gradient<2>(derivatives, q * table.rows_per_point,
+                                        table.derivatives.m(), invert(J)) -
+                   scene.initial_strain_in(cell, map.point(rule.point(q))));
+    square += rule.weight(q) * determinant(J) * law.complementary_product(missed, missed);
+  }
+  EXPECT_NEAR(std::sqrt(stress.squares[0]), std::sqrt(square), 1e-5 * std::sqrt(square));
+}
+
 /** Contact and symmetry along a curve have no bound, and say on which boundary. */
 TEST(RowStresses, SayWhereNormalsTurn)
 {
