@@ -374,6 +374,8 @@ void RowStresses::add_loads(const unsigned int index, OfVertices &result)
   const auto add = [&](const LoadRule<2> &rule, const bool is_force)
   {
     const Quadrature<2> &points = rule.quadrature;
+    const unsigned int n_modes = std::min(
+        n, rule.most_points); // no more than its points tell, whatever a neighbour asks for
     const ShapeTable<2> table =
         tabulate<2>(beyond ? p : 1, points.get_points(), points.get_weights(), false);
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -394,8 +396,8 @@ void RowStresses::add_loads(const unsigned int index, OfVertices &result)
         const Tensor<1, 2> d =
             -points.weight(q) * determinant(J) / cell.h * (psi.value * F + flux * psi.slope);
         for (unsigned int row = 0; row < 2; ++row)
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int i = 0; i < n_modes; ++i)
+            for (unsigned int j = 0; j < n_modes; ++j)
             {
               result.divergence[v][(row * n + i) * n + j] += d[row] * L_x[i] * L_y[j];
               if (is_force)

@@ -559,6 +559,28 @@ TEST(RowStresses, AreAdmissible)
             neumann = std::max(neumann, std::abs((t - stress.prescribed().value(index, s)) *
                                                  edge.components[c].direction));
       }
+    for (const auto &cell : stress.patches().cells())
+    {
+      const CellMap<2> map = map_of<2>(cell.iterator);
+      if (!of.scene.has_body_force())
+        break;
+      const Point<2> xi(0.3, 0.45);
+      Tensor<1, 2> sum({map.point(xi)[0], 1 - 2 * map.point(xi)[1]}); // div s + F
+      for (unsigned int r = 0; r < 2; ++r)
+      {
+        const auto at = [&](const double t)
+        {
+          Point<2> x = xi;
+          x[r] += t * 1e-3;
+          return stress.value_of_rows(cell.iterator->active_cell_index(), x);
+        };
+        const Tensor<2, 2> slope = (8. * (at(1) - at(-1)) - (at(2) - at(-2))) / 12e-3;
+        for (unsigned int c = 0; c < 2; ++c)
+          sum[c] += slope[c] * invert(map.jacobian(xi))[r];
+      }
+      EXPECT_LE(sum.norm() * map.longest_edge(), 1e-7 * of.largest);
+      EXPECT_LE(stress.missed_force(cell.iterator->active_cell_index()), 1e-12);
+    }
     EXPECT_LE(stress.defect, 1e-11);
     EXPECT_LE(jump, 1e-10 * of.largest);
     EXPECT_LE(neumann, 1e-10 * of.largest);
