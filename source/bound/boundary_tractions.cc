@@ -22,12 +22,13 @@ double outward(const StressEdge &edge)
 } // namespace
 
 BoundaryTractions::BoundaryTractions(const Solution<2> &solution, const VertexPatches &patches,
-                                     const Parts &friction, const Parts &pressure)
-    : solution(solution), patches(patches), halves(patches.edges().size())
+                                     const Parts &friction, const Parts &pressure,
+                                     const JointTractions *const joints)
+    : solution(solution), patches(patches), joints(joints), halves(patches.edges().size())
 {
   const auto &faces = solution.contact_space.faces();
   contact_parts.resize(faces.size());
-  for (unsigned int face = 0; face < faces.size(); ++face)
+  for (unsigned int face = 0; !joints && face < faces.size(); ++face)
     for (unsigned int end = 0; end < 2; ++end)
     {
       contact_parts[face].friction[end] = friction(face, end);
@@ -135,7 +136,6 @@ void BoundaryTractions::set(const unsigned int index)
 {
   const StressEdge &edge = patches.edges()[index];
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-  const bool has_contact = edge.contact_face != numbers::invalid_unsigned_int;
   for (auto &half : halves[index])
     for (unsigned int c = 0; c < 2; ++c)
       half[c].assign(edge.components[c].n, 0.);
@@ -153,25 +153,40 @@ void BoundaryTractions::set(const unsigned int index)
   if (condition.spring)
     add_loads(rule(edge, Datum::spring).quadrature,
               [&](const auto &...at) { return spring_on(at...); });
-  if (has_contact)
-  {
-    const FrictionRule friction = traction_rule(solution.contact_space.faces()[edge.contact_face],
-                                                edge.degree - 2, solution.tables);
-    for (unsigned int q = 0; q < friction.points.size(); ++q)
-      add_load(index, friction.points[q], friction.weights[q],
-               {{friction_on(edge, 0, friction.points[q], friction.values[q]),
-                 friction_on(edge, 1, friction.points[q], friction.values[q])}});
-  }
+  if (edge.contact_face != numbers::invalid_unsigned_int)
+    joints ? add_joint(index) : add_contact(index);
+  for (unsigned int end = 0; !edge.is_curved && end < 2; ++end)
+    meet_ends(edge, end, value(index, end));
+}
+
+void BoundaryTractions::add_contact(const unsigned int index)
+{
+  const StressEdge &edge = patches.edges()[index];
+  const FrictionRule friction = traction_rule(solution.contact_space.faces()[edge.contact_face],
+                                              edge.degree - 2, solution.tables);
+  for (unsigned int q = 0; q < friction.points.size(); ++q)
+    add_load(index, friction.points[q], friction.weights[q],
+             {{friction_on(edge, 0, friction.points[q], friction.values[q]),
+               friction_on(edge, 1, friction.points[q], friction.values[q])}});
   for (unsigned int end = 0; end < 2; ++end)
   {
-    if (has_contact)
-    {
-      const std::vector<double> &t = contact_parts[edge.contact_face].pressure[end];
-      for (unsigned int i = 0; i < t.size(); ++i)
-        halves[index][end][0][i] -= t[i];
-    }
-    if (!edge.is_curved)
-      meet_ends(edge, end, value(index, end));
+    const std::vector<double> &t = contact_parts[edge.contact_face].pressure[end];
+    for (unsigned int i = 0; i < t.size(); ++i)
+      halves[index][end][0][i] -= t[i];
+  }
+}
+
+/** On the slave's side; a master has those of each of its pieces. */
+void BoundaryTractions::add_joint(const unsigned int index)
+{
+  const StressEdge &edge = patches.edges()[index];
+  JointPiece whole = joints->edges()[edge.contact_face].pieces[0];
+  whole.begin = whole.at_begin = 0.;
+  whole.end = whole.at_end = 1.;
+  for (const auto &[s, weight] : joints->points(whole, edge.degree + 1))
+  {
+    const Tensor<1, 2> T = -outward(edge) * joints->value(edge.contact_face, s);
+    add_load(index, s, weight, {{T, T}});
   }
 }
 
@@ -188,6 +203,8 @@ Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) 
   const Tensor<1, 2> result = load(index, s);
   if (edge.contact_face == numbers::invalid_unsigned_int)
     return result;
+  if (joints)
+    return result - outward(edge) * joints->value(edge.contact_face, s);
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
   const auto &[friction, pressure] = contact_parts[edge.contact_face];
   const auto at = [s](const std::vector<double> &part)

@@ -295,6 +295,17 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::best(Candidate 
 template <int dim>
 std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) const
 {
+  std::vector<double> result = energies_by_cell(solution, discretisation, w);
+  for (unsigned int i = 0; i < cell_of_bubble.size(); ++i)
+    result[cell_of_bubble[i]] += A.energy(A.A.n() + i, w);
+  return result;
+}
+
+template <int dim>
+std::vector<double> energies_by_cell(const Solution<dim> &solution,
+                                     const Discretisation<dim> &discretisation,
+                                     const Vector<double> &w)
+{
   std::vector<double> result(solution.displacement_space.degrees().size());
   for (unsigned int cell = 0; cell < result.size(); ++cell)
     if (const auto &element = discretisation.condensation.element(cell))
@@ -312,10 +323,10 @@ std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) con
   for (const SpringFace &face :
        spring_faces(solution.scene, solution.displacement_space, solution.tables))
     result[face.cell] += add_spring_forces({face}, moved, forces);
-  for (unsigned int i = 0; i < cell_of_bubble.size(); ++i)
-    result[cell_of_bubble[i]] += A.energy(A.A.n() + i, w);
   return result;
 }
 
 template class CorrectionSearch<2>;
+template std::vector<double> energies_by_cell(const Solution<2> &, const Discretisation<2> &,
+                                             const Vector<double> &);
 } // namespace hpvi

@@ -179,26 +179,6 @@ double boundary_work(const Solution<2> &solution, const EquilibratedStress &stre
   return cell->face(edge.sides[0].face)->diameter() * (edge.sides[0].face % 2 ? 1. : -1.) * sum;
 }
 
-/** int k d . d of springs beside a prescribed displacement. */
-double spring_energy(const Solution<2> &solution, const StressEdge &edge, const CellMap<2> &map,
-                     const std::array<Vector<double>, 2> &d)
-{
-  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-  double sum = 0;
-  if (!condition.spring)
-    return sum;
-  const unsigned int face = edge.sides[0].face;
-  const QGauss<1> &gauss = solution.tables.gauss(d[0].size() + 6);
-  for (unsigned int q = 0; q < gauss.size(); ++q)
-  {
-    const Point<2> xi = point_on_face<2>(face, gauss.point(q));
-    const Tensor<1, 2> value = value_at(d, gauss.point(q)[0]);
-    sum += gauss.weight(q) * map.face_measure(face, xi) *
-           (value * (condition.spring.stiffness(map.point(xi), map.normal(face, xi)) * value));
-  }
-  return sum;
-}
-
 /** No less than int |s n| over an edge. */
 double absolute_traction(const EquilibratedStress &stress, const unsigned int index)
 {
@@ -232,10 +212,16 @@ void DataError::add_initial_strain(const Solution<2> &solution, const Equilibrat
   missed_work += missed * norm;
 }
 
-DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress)
+DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress,
+                     const JointLift *const joints)
     : oscillation(stress.squares.size()), lifts(oscillation.size()),
       unresolved(unresolved_loads(solution, stress))
 {
+  if (joints)
+  {
+    lifts = joints->cells;
+    lift_work = joints->work;
+  }
   const VertexPatches &patches = stress.patches();
   for (unsigned int e = 0; e < patches.edges().size(); ++e)
   {
@@ -249,6 +235,9 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
         oscillation[side.cell] +=
             CellConstants(map_of<2>(patches.cells()[side.cell].iterator)).trace(side.face) *
             missed_traction(stress, e);
+    if (stress.has_rows())
+      oscillation[cell] += CellConstants(map_of<2>(patches.cells()[cell].iterator)).trace(face) *
+                           stress.missed_traction(cell, face);
     if (condition.has_displacement() || (condition.is_unilateral() && condition.gap))
     {
       const Missed missed = missed_displacement(solution, stress, e);
@@ -259,7 +248,8 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
         lifts[cell] += std::sqrt(std::max(
             0., lift_energy(map, face, part, HookesLaw<2>(solution.scene.material_of(iterator)),
                             solution.tables) +
-                    spring_energy(solution, edge, map, part)));
+                    spring_energy(condition, map, face,
+                                  edge_points(part, 6, solution.tables))));
       lift_work += boundary_work(solution, stress, e, missed);
       const double most = std::max(missed.missed_data[0], missed.missed_data[1]);
       missed_work += most * absolute_traction(stress, e);

@@ -43,26 +43,13 @@ Vector<double> integral(const Vector<double> &f)
 
 /** |delta(s) (1 - n)^q|_a^2 on a cell that is no parallelogram, least over some q. */
 double distorted_energy(const CellMap<2> &map, const unsigned int face,
-                        const std::array<Vector<double>, 2> &delta,
-                        const std::array<Vector<double>, 2> &slope, const HookesLaw<2> &law,
+                        const std::vector<EdgePoint> &delta, const HookesLaw<2> &law,
                         const ShapeTables<2> &tables)
 {
-  const unsigned int n = delta[0].size(), along = face < 2 ? 1 : 0;
-  const QGauss<1> &along_face = tables.gauss(n + 2), &across = tables.gauss(64);
-  const auto at = [&](const std::array<Vector<double>, 2> &coefficients, const double s)
-  {
-    const std::vector<double> L = legendre::values(n, 2 * s - 1);
-    Tensor<1, 2> value;
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int i = 0; i < n; ++i)
-        value[c] += coefficients[c][i] * L[i];
-    return value;
-  };
+  const unsigned int along = face < 2 ? 1 : 0;
+  const QGauss<1> &across = tables.gauss(64);
   std::array<double, std::size(powers)> energies{};
-  for (unsigned int a = 0; a < along_face.size(); ++a)
-  {
-    const double s = along_face.point(a)[0];
-    const Tensor<1, 2> value = at(delta, s), by_s = at(slope, s);
+  for (const auto &[s, of_s, value, by_s] : delta)
     for (unsigned int b = 0; b < across.size(); ++b)
     {
       const double left = across.point(b)[0]; // 1 - n
@@ -70,7 +57,7 @@ double distorted_energy(const CellMap<2> &map, const unsigned int face,
       xi[along] = s;
       xi[1 - along] = face % 2 ? left : 1 - left;
       const Tensor<2, 2> J = map.jacobian(xi), inverse = invert(J);
-      const double weight = along_face.weight(a) * across.weight(b) * determinant(J);
+      const double weight = of_s * across.weight(b) * determinant(J);
       for (unsigned int k = 0; k < energies.size(); ++k)
       {
         const double power = std::pow(left, powers[k] - 1.);
@@ -83,7 +70,6 @@ double distorted_energy(const CellMap<2> &map, const unsigned int face,
         energies[k] += weight * law.energy_product(reference * inverse);
       }
     }
-  }
   return *std::min_element(energies.begin(), energies.end());
 }
 
@@ -91,9 +77,15 @@ double distorted_energy(const CellMap<2> &map, const unsigned int face,
 struct ProductEnergies
 {
   ProductEnergies(const CellMap<2> &map, const unsigned int face,
-                  const std::array<Vector<double>, 2> &delta,
-                  const std::array<Vector<double>, 2> &slope, const HookesLaw<2> &law)
+                  const std::vector<EdgePoint> &delta, const HookesLaw<2> &law)
   {
+    Tensor<2, 2> slopes, values, of_both; // int over s of products of components
+    for (const EdgePoint &at : delta)
+    {
+      slopes += at.weight * outer_product(at.slope, at.slope);
+      values += at.weight * outer_product(at.value, at.value);
+      of_both += at.weight * outer_product(at.slope, at.value);
+    }
     const Tensor<2, 2> J = map.jacobian({0.5, 0.5}), inverse = invert(J);
     const unsigned int s = face < 2 ? 1 : 0, n = 1 - s;
     for (unsigned int c = 0; c < 2; ++c)
@@ -106,9 +98,9 @@ struct ProductEnergies
                                                 { return inverse[k][i] * inverse[l][j] * product; },
                                                 c, d);
         };
-        along += energy(s, s, slope[c] * slope[d] / 2);
-        across += energy(n, n, delta[c] * delta[d] / 2);
-        mixed += energy(s, n, slope[c] * delta[d] / 2) + energy(n, s, delta[c] * slope[d] / 2);
+        along += energy(s, s, slopes[c][d]);
+        across += energy(n, n, values[c][d]);
+        mixed += energy(s, n, of_both[c][d]) + energy(n, s, of_both[d][c]);
       }
   }
 
@@ -235,21 +227,65 @@ double solenoidal_energy(const CellMap<2> &map, const unsigned int face,
 }
 } // namespace
 
+std::vector<EdgePoint> edge_points(const std::array<Vector<double>, 2> &delta,
+                                   const unsigned int more, const ShapeTables<2> &tables)
+{
+  const unsigned int n = delta[0].size();
+  const std::array<Vector<double>, 2> slope{{derivative(delta[0]), derivative(delta[1])}};
+  const QGauss<1> &gauss = tables.gauss(n + more);
+  std::vector<EdgePoint> result;
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+  {
+    const double s = gauss.point(q)[0];
+    const std::vector<double> L = legendre::values(n, 2 * s - 1);
+    EdgePoint &at = result.emplace_back(EdgePoint{s, gauss.weight(q), {}, {}});
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        at.value[c] += delta[c][i] * L[i];
+        at.slope[c] += slope[c][i] * L[i];
+      }
+  }
+  return result;
+}
+
 double lift_energy(const CellMap<2> &map, const unsigned int face,
                    const std::array<Vector<double>, 2> &delta, const HookesLaw<2> &law,
                    const ShapeTables<2> &tables)
 {
   if (delta[0].all_zero() && delta[1].all_zero())
     return 0.;
-  const std::array<Vector<double>, 2> slope{{derivative(delta[0]), derivative(delta[1])}};
+  const double energy = lift_energy(map, face, edge_points(delta, 2, tables), law, tables);
+  return map.is_affine() ? std::min(energy, solenoidal_energy(map, face, delta, law)) : energy;
+}
+
+double lift_energy(const CellMap<2> &map, const unsigned int face,
+                   const std::vector<EdgePoint> &delta, const HookesLaw<2> &law,
+                   const ShapeTables<2> &tables)
+{
   if (!map.is_affine())
-    return distorted_energy(map, face, delta, slope, law, tables);
+    return distorted_energy(map, face, delta, law, tables);
   // Of int b b, int b' b' and int b b' the energy is a linear function.
-  const ProductEnergies parts(map, face, delta, slope, law);
-  double best = solenoidal_energy(map, face, delta, law);
+  const ProductEnergies parts(map, face, delta, law);
+  double best = std::numeric_limits<double>::infinity();
   for (unsigned int q = 1; q <= 60; ++q)
     best = std::min(best, parts.along / (2 * q + 1) + parts.across * q * q / (2 * q - 1) -
                               0.5 * (face % 2 ? -1. : 1.) * parts.mixed);
   return best;
+}
+
+double spring_energy(const BoundaryCondition<2> &condition, const CellMap<2> &map,
+                     const unsigned int face, const std::vector<EdgePoint> &delta)
+{
+  double sum = 0;
+  for (const EdgePoint &at : delta)
+    if (condition.spring)
+    {
+      const Point<2> xi = point_on_face<2>(face, Point<1>(at.s));
+      sum += at.weight * map.face_measure(face, xi) *
+             (at.value *
+              (condition.spring.stiffness(map.point(xi), map.normal(face, xi)) * at.value));
+    }
+  return sum;
 }
 } // namespace hpvi

@@ -77,13 +77,16 @@ std::vector<PatchEdge> edges_of(const Hats &hats, const VertexPatches &vertex_pa
 
 EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts &friction,
                                        const Parts &pressure, EquilibrationCache &cache,
-                                       const Solution<2> *const measured, const Volume volume)
+                                       const Solution<2> *const measured, const Volume volume,
+                                       const JointTractions *const joints)
     : squares(solution.displacement_space.degrees().size()), antisymmetry(squares.size()),
-      cache(cache), vertex_patches(solution, has_distorted_cells(solution)),
-      boundary(solution, vertex_patches, friction, pressure)
+      cache(cache), joints(joints),
+      vertex_patches(solution, joints || has_distorted_cells(solution), joints),
+      boundary(solution, vertex_patches, friction, pressure, joints)
 {
   if (vertex_patches.has_rows)
-    row_stresses = std::make_unique<const RowStresses>(solution, vertex_patches, boundary, cache);
+    row_stresses =
+        std::make_unique<const RowStresses>(solution, vertex_patches, boundary, joints, cache);
   else
     plain_stresses = std::make_unique<ParallelogramStresses>(
         solution, vertex_patches, boundary.marked_corners(), volume, cache);
@@ -121,6 +124,11 @@ const LegendreTables &EquilibratedStress::legendre_tables() const
 double EquilibratedStress::missed_force(const unsigned int cell) const
 {
   return row_stresses ? row_stresses->missed_force(cell) : plain_stresses->missed_force(cell);
+}
+
+double EquilibratedStress::missed_traction(const unsigned int cell, const unsigned int face) const
+{
+  return row_stresses ? row_stresses->missed_traction(cell, face) : 0.;
 }
 
 double EquilibratedStress::missed_initial_stress(const unsigned int cell) const
@@ -300,7 +308,7 @@ void EquilibratedStress::measure()
 void EquilibratedStress::measure_from(const Solution<2> &other)
 {
   if (row_stresses)
-    row_stresses = std::make_unique<const RowStresses>(other, vertex_patches, boundary, cache);
+    row_stresses = std::make_unique<const RowStresses>(other, vertex_patches, boundary, joints, cache);
   else
     plain_stresses->measure_from(other);
 }

@@ -24,7 +24,9 @@
 #include <hpvi/bound/contact_correction.h>
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/error_bound.h>
+#include <hpvi/bound/joint_lift.h>
 #include <hpvi/bound/row_stresses.h>
+#include <hpvi/plane/matching.h>
 
 #include <boost/math/tools/minima.hpp>
 
@@ -44,18 +46,24 @@ namespace
 /** Relative imbalance that is taken for round-off; up to the second the oscillation pays for it. */
 constexpr double tolerable = 1e-9, payable = 1e-7;
 
-/** |w|_a */
-double norm(const ContactCorrection<2> &correction)
+/** What contact adds: w, and what is left of the law where u_N - w moves. */
+struct ContactError
 {
-  return std::sqrt(std::max(0., sum(correction.energy()))); // round-off
+  std::vector<double> energies, gaps; ///< |w|_K^2 by cell, gap(u_N - w) by face
+};
+
+/** |w|_a */
+double norm(const ContactError &contact)
+{
+  return std::sqrt(std::max(0., sum(contact.energies))); // round-off
 }
 
 /** No less than |d - w|_a: w is along the contact boundary, d elsewhere, so that the cells of both are few. */
-double distance_from_admissible(const ContactCorrection<2> &correction, const DataError &data)
+double distance_from_admissible(const ContactError &contact, const DataError &data)
 {
   double square = 0;
   for (unsigned int cell = 0; cell < data.lifts.size(); ++cell)
-    square += std::pow(std::sqrt(std::max(0., correction.energy()[cell])) + data.lifts[cell], 2);
+    square += std::pow(std::sqrt(std::max(0., contact.energies[cell])) + data.lifts[cell], 2);
   return std::sqrt(square);
 }
 
@@ -73,17 +81,17 @@ double stress_and_oscillation(const EquilibratedStress &stress, const DataError 
 // A bound is one number, but its square is a sum over cells: a second indicator to mark by, without
 // unknown constants, and as fine at high degrees as at low ones.
 void set_squares(ErrorBound &result, const Solution<2> &solution, const EquilibratedStress &stress,
-                 const ContactCorrection<2> &correction, const DataError &data)
+                 const ContactError &contact, const DataError &data)
 {
   for (unsigned int cell = 0; cell < stress.squares.size(); ++cell)
     result.squares.push_back(std::pow(std::sqrt(stress.squares[cell]) + data.oscillation[cell], 2) +
-                             std::max(0., correction.energy()[cell]));
-  result.moved.assign(correction.energy().begin(), correction.energy().end());
+                             std::max(0., contact.energies[cell]));
+  result.moved = contact.energies;
   result.lifted = data.lifts;
   const auto &faces = solution.contact_space.faces();
   for (unsigned int face = 0; face < faces.size(); ++face)
     result.squares[faces[face].cell->active_cell_index()] +=
-        2 * std::max(0., correction.gap()[face]);
+        2 * std::max(0., contact.gaps[face]);
 }
 
 // @sect3{In the energy norm}
@@ -92,9 +100,9 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
 // ((1 - \lambda)|e| + \lambda b)^2$ with $A^2 = \sum_K (\eta_K + O_K)^2$, and so it is below the larger root.
 // $\lambda = 1$ gives $(A^2 + 2\,\mathrm{gap} + b^2)^{1/2}$, the least where $w$ counts.
 void set_norms(ErrorBound &result, const EquilibratedStress &stress,
-               const ContactCorrection<2> &correction, const DataError &data)
+               const ContactError &contact, const DataError &data)
 {
-  const double w = norm(correction), gap = std::max(0., sum(correction.gap())); // round-off
+  const double w = norm(contact), gap = std::max(0., sum(contact.gaps)); // round-off
   result.stress = std::sqrt(sum(stress.squares));
   result.slip = std::sqrt(2 * gap + w * w);
   result.oscillation =
@@ -102,7 +110,7 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
                                    data.oscillation.begin(), 0.)) +
       data.unresolved;
   result.data = data.lift;
-  const double b = distance_from_admissible(correction, data),
+  const double b = distance_from_admissible(contact, data),
                A = stress_and_oscillation(stress, data);
   const auto root = [&](const double lambda)
   {
@@ -117,10 +125,10 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
 
 /** Of the stress between sigma(u_N) and s that is nearest to that of the solution; doc/bound.md has the proof. */
 void set_radius(ErrorBound &result, const EquilibratedStress &stress,
-                const ContactCorrection<2> &correction, const DataError &data)
+                const ContactError &contact, const DataError &data)
 {
-  const double A = stress_and_oscillation(stress, data), gap = std::max(0., sum(correction.gap())),
-               b = distance_from_admissible(correction, data);
+  const double A = stress_and_oscillation(stress, data), gap = std::max(0., sum(contact.gaps)),
+               b = distance_from_admissible(contact, data);
   const auto radius = [&](const double theta)
   {
     const double rest = 1 - theta;
@@ -133,29 +141,17 @@ void set_radius(ErrorBound &result, const EquilibratedStress &stress,
   result.radius = std::min(least, result.total);
 }
 
-/** Of U = u_N - w + d; w, in V_N, is none but where u_N may penetrate. */
-void set_energy(ErrorBound &result, const Solution<2> &solution,
-                const Discretisation<2> &discretisation, const EquilibratedStress &stress,
-                const ContactCorrection<2> &correction, const DataError &data)
+/** Of U = u_N - w + d; J changes by @p change with u_N - w, w in V_N. */
+void set_energy(ErrorBound &result, const EquilibratedStress &stress, const ContactError &contact,
+                const double change, const DataError &data)
 {
-  const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
-  const double w = is_moved ? norm(correction) : 0.,
-               b = is_moved ? distance_from_admissible(correction, data) : data.lift,
-               gap = sum(is_moved ? correction.gap() : correction.uncorrected_gap());
-  double change = 0;
-  if (is_moved)
-  {
-    Vector<double> v(correction.unknowns());
-    v *= -1.;
-    change = energy_change(solution, discretisation, v);
-    result.moved_by_energy.assign(correction.energy().begin(), correction.energy().end());
-  }
-  result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + gap;
+  const double w = norm(contact), b = distance_from_admissible(contact, data);
+  result.energy =
+      std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + sum(contact.gaps);
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift + data.missed_work;
-  const bool is_admissible = !is_moved && data.lift == 0.; // u_N itself
-  result.energy_above = is_admissible ? 0. : centre + unknown;
+  result.energy_above = w == 0. && data.lift == 0. ? 0. : centre + unknown; // u_N is admissible
   result.energy_below = result.energy + unknown - centre;
 }
 
@@ -212,13 +208,13 @@ std::string flaw_of_correction(const Solution<2> &solution, const ContactCorrect
 }
 
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
-                 const DataError &data)
+                 const DataError &data, const bool has_rows)
 {
   const double largest = solution.u.linfty_norm();
   if (pressure.tension() > 0.)
     return "pressure is negative between the nodes of contact, by " + text(pressure.tension(), 2) +
            " of the largest, and cannot be made admissible";
-  if (has_distorted_cells(solution))
+  if (has_rows)
   {
     if (const std::string cut = cut_inside_cell(solution); !cut.empty())
       return cut;
@@ -244,16 +240,33 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
 // work of $z_N$, and no pressure has the moment of a force that stands in a corner node. No stress near
 // $\sigma(u_N)$ is in balance with them then. Forces that make up for the
 // difference move $u_N$; near the stress of what they make of it there is one.
+std::optional<JointTractions> joints_of(const Solution<2> &solution,
+                                        const AdmissibleFriction<2> &friction,
+                                        const AdmissiblePressure<2> &pressure)
+{
+  std::optional<JointTractions> result;
+  if (!unmatched_joint(solution.contact_space).empty())
+    result.emplace(solution, friction, pressure);
+  return result;
+}
+
 std::optional<Solution<2>> moved(const Solution<2> &solution,
                                  const Discretisation<2> &discretisation,
                                  const AdmissibleFriction<2> &friction,
                                  const AdmissiblePressure<2> &pressure,
-                                 const LinearSolver *const factor)
+                                 const std::optional<JointTractions> &joints,
+                           const LinearSolver *const factor)
 {
-  if (friction.imbalance() <= tolerable && pressure.is_balanced())
+  if (!joints && friction.imbalance() <= tolerable && pressure.is_balanced())
     return std::nullopt;
-  Vector<double> missing = friction.missing_forces(solution);
-  missing += pressure.missing_forces(solution);
+  Vector<double> missing(solution.u.size());
+  if (joints)
+    missing = joints->missing_forces();
+  else
+  {
+    missing = friction.missing_forces(solution);
+    missing += pressure.missing_forces(solution);
+  }
   const Vector<double> forces = discretisation.unknowns.collect(missing);
   Vector<double> u = discretisation.unknowns.expand(factor ? factor->solve(forces)
                                                            : discretisation.factor().solve(forces));
@@ -281,7 +294,8 @@ struct ErrorBounds::AdmissibleStress
                    const Discretisation<2> &discretisation, const LinearSolver *const factor,
                    EquilibrationCache &cache)
       : mixed(std::move(of_mixed_problem)), start(mixed ? *mixed : measured), friction(start),
-        pressure(start), balanced(moved(start, discretisation, friction, pressure, factor)),
+        pressure(start), joints(joints_of(start, friction, pressure)),
+        balanced(moved(start, discretisation, friction, pressure, joints, factor)),
         stress(
             balanced ? *balanced : start,
             [&](const unsigned int face, const unsigned int end)
@@ -289,7 +303,7 @@ struct ErrorBounds::AdmissibleStress
             [&](const unsigned int face, const unsigned int end)
             { return pressure.part(face, end).coefficients(); },
             cache, balanced || mixed ? &measured : nullptr,
-            mixed ? Volume::projected : Volume::full)
+            mixed ? Volume::projected : Volume::full, joints ? &*joints : nullptr)
   {
   }
 
@@ -307,6 +321,7 @@ struct ErrorBounds::AdmissibleStress
   const Solution<2> &start;
   const AdmissibleFriction<2> friction;
   const AdmissiblePressure<2> pressure;
+  const std::optional<JointTractions> joints; ///< where meshes of two bodies do not match
   const std::optional<Solution<2>> balanced;
   const EquilibratedStress stress;
 };
@@ -358,7 +373,44 @@ ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2>
 // @sect3{The order of things}
 //
 // A stress; a correction $w$ for what $u_N$ does where it should stick; and what data leave. The energy of $u_N - w$
-// is known for a $w$ in $V_N$ alone.
+// is known for a $w$ in $V_N$ alone. Where meshes of bodies do not match, what they do there is a part of $d$, and no $w$ is left.
+/** Contact with w; @p result has its flaw, and for the energy the change of J and |w|_K^2. */
+struct ErrorBounds::Contact
+{
+  ContactError in_norms, in_energy;
+  double change = 0;
+  std::string flaw;
+};
+
+ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
+                                             const Discretisation<2> &discretisation,
+                                             const AdmissibleStress &made)
+{
+  Contact result;
+  const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
+  std::array<std::optional<ContactCorrection<2>>, 2> corrections;
+  parallel_for_each(is_moved ? 2 : 1, 1,
+                    [&](const unsigned int k)
+                    {
+                      corrections[k].emplace(solution, discretisation, made.friction, made.pressure,
+                                             k == 0 ? &bubbles : nullptr);
+                    });
+  const ContactCorrection<2> &first = *corrections[0];
+  result.in_norms = {first.energy(), first.gap()};
+  result.in_energy = {std::vector<double>(first.energy().size()), first.uncorrected_gap()};
+  if (is_moved)
+  {
+    Vector<double> v(corrections[1]->unknowns());
+    v *= -1.;
+    result.change = energy_change(solution, discretisation, v);
+    result.in_energy = {corrections[1]->energy(), corrections[1]->gap()};
+  }
+  for (const auto &correction : corrections)
+    if (result.flaw.empty() && correction)
+      result.flaw = flaw_of_correction(solution, *correction);
+  return result;
+}
+
 ErrorBound ErrorBounds::compute(const Solution<2> &solution,
                                 const Discretisation<2> &discretisation,
                                 std::unique_ptr<LinearSolver> factor, const double hysteresis)
@@ -368,33 +420,34 @@ try
   result.hysteresis = hysteresis;
   const auto made = nearest_stress(solution, discretisation, std::move(factor), result.hysteresis);
   const EquilibratedStress &stress = made->stress;
-  const auto correct = [&](EdgeBubbles *const with, std::optional<ContactCorrection<2>> &result)
-  { result.emplace(solution, discretisation, made->friction, made->pressure, with); };
-  const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
-  std::optional<ContactCorrection<2>> corrected, within_space;
+  std::optional<JointLift> joints;
+  Contact contact;
   std::optional<DataError> missed;
-  parallel_for_each(is_moved ? 3 : 2, 1,
+  if (made->joints)
+  {
+    joints.emplace(solution, discretisation, *made->joints);
+    contact = {{joints->energies, joints->gaps}, {joints->energies, joints->gaps}, joints->change,
+               joints->flaw};
+  }
+  parallel_for_each(joints ? 1 : 2, 1,
                     [&](const unsigned int k)
                     {
                       if (k == 0)
-                        correct(&bubbles, corrected);
-                      else if (k == 1)
-                        missed.emplace(solution, stress);
+                        missed.emplace(solution, stress, joints ? &*joints : nullptr);
                       else
-                        correct(nullptr, within_space);
+                        contact = contact_of(solution, discretisation, *made);
                     });
-  const ContactCorrection<2> &correction = *corrected;
   const DataError &data = *missed;
-  set_squares(result, solution, stress, correction, data);
-  set_norms(result, stress, correction, data);
-  set_radius(result, stress, correction, data);
+  set_squares(result, solution, stress, contact.in_norms, data);
+  set_norms(result, stress, contact.in_norms, data);
+  set_radius(result, stress, contact.in_norms, data);
   result.tractions = edge_tractions(stress);
-  set_energy(result, solution, discretisation, stress, is_moved ? *within_space : correction, data);
+  set_energy(result, stress, contact.in_energy, contact.change, data);
+  result.moved_by_energy = contact.in_energy.energies;
   result.imbalance = stress.defect;
-  result.flaw = flaw(solution, made->pressure, data);
-  for (const auto *one : {&corrected, &within_space})
-    if (result.flaw.empty() && *one)
-      result.flaw = flaw_of_correction(solution, **one);
+  result.flaw = flaw(solution, made->pressure, data, stress.has_rows());
+  if (result.flaw.empty())
+    result.flaw = contact.flaw;
   if (result.flaw.empty())
     result.flaw = flaw_of_balance(solution, stress, bool(made->balanced));
   return result;

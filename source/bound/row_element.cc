@@ -556,7 +556,8 @@ void RowElement::set_conditions(const RowShape &shape)
             N_divergence[((2 * z + row) * n + i) * n + j] +=
                 table.weights[q] * v[row] * L_x[i] * L_y[j];
     }
-    double length = 0;
+    double &length = lengths[z];
+    length = 0;
     for (unsigned int i = 0; i < m; ++i)
       length += N[z * m + i] * N[z * m + i];
     length = std::sqrt(length);

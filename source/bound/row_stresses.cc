@@ -19,7 +19,7 @@ using namespace dealii;
 
 namespace
 {
-/** psi of vertex v, its slopes by the reference coordinates in [0,1]. */
+/** psi of vertex v of a cell, its slopes by the reference coordinates in [0,1]. */
 struct Bilinear
 {
   Bilinear(const unsigned int v, const Point<2> &reference)
@@ -67,11 +67,13 @@ Tensor<1, 2> rotation(const Tensor<1, 2> &x)
   return Tensor<1, 2>({-x[1], x[0]});
 }
 
+} // namespace
+
 /**
  * Along a curved edge psi z, z a rotation, is of one degree more than V_N: what the interpolation I there lacks of it, E = psi z - I psi z, for
  * the four psi of a cell. I has the nodes of the cell, on edges those of the displacement, of the whole where an edge is half of another.
  */
-class BeyondSpace
+class RowStresses::BeyondSpace
 {
 public:
   BeyondSpace(const Solution<2> &solution, const VertexPatches::Cell &cell, const CellMap<2> &map)
@@ -187,6 +189,8 @@ private:
   std::vector<EdgeNode> on_edges;
 };
 
+namespace
+{
 /** A field of force 0 and moment 1 about the centre in units of h: the rotation less its mean, by its Legendre coefficients. */
 std::vector<double> unit_moment(const RowElement &element, const CellMap<2> &map, const double h,
                                 const unsigned int n_modes)
@@ -228,83 +232,168 @@ std::string cut_inside_cell(const Solution<2> &solution)
 }
 
 RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patches,
-                         const BoundaryTractions &boundary, EquilibrationCache &cache)
-    : solution(solution), patches(patches), boundary(boundary), cache(cache),
+                         const BoundaryTractions &boundary, const JointTractions *const joints,
+                         EquilibrationCache &cache)
+    : solution(solution), patches(patches), boundary(boundary), joints(joints), cache(cache),
       cells(patches.cells().size())
 {
-  std::vector<EquilibrationCache::Signature> keys(cells.size());
-  std::vector<unsigned int> degrees(cells.size()), corners(cells.size()), points(cells.size());
-  const auto set_key = [&](const unsigned int cell)
-  {
-    const RowShape shape = shape_of(cell);
-    for (const unsigned int edge : patches.cells()[cell].edges)
-      degrees[cell] = std::max(degrees[cell], patches.edges()[edge].degree - 1);
-    const auto add = [&](const Tensor<1, 2> &x)
-    {
-      for (unsigned int d = 0; d < 2; ++d)
-        keys[cell].push_back(std::lround(x[d] / shape.h * 1e11));
-    };
-    corners[cell] = outer_corners(patches.cells()[cell].iterator);
-    points[cell] = energy_points(shape.map, degrees[cell]);
-    if (solution.scene.has_initial_strain()) // which is no polynomial of the cell's degree
-      points[cell] = std::max(points[cell],
-                              solution.spaces->loads
-                                      ->initial_strain(patches.cells()[cell].iterator,
-                                                       solution.displacement_space.degrees()[cell])
-                                      .most_points +
-                                  2);
-    keys[cell] = {degrees[cell], shape.material, corners[cell], points[cell]};
-    for (const double density : shape.densities)
-      keys[cell].push_back(std::lround(density / shape.h * 1e11));
-    for (const Point<2> &v : shape.map.vertices())
-      add(v - shape.map.vertices()[0]);
-    for (unsigned int face = 0; shape.map.is_curved() && face < 4; ++face)
-      if (const EdgeBlend &blend = shape.map.blends()[face])
-      {
-        keys[cell].push_back(4 * blend.degree() + face);
-        for (unsigned int i = 1; i <= blend.degree(); ++i)
-          add(blend(i / (blend.degree() + 1.))[0]);
-      }
-  };
-  parallel_for_each(cells.size(), 8, set_key);
+  std::vector<Part *> parts;
+  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+    cut(cell);
+  for (Cell &cell : cells)
+    for (Part &part : cell.parts)
+      parts.push_back(&part);
+  std::vector<EquilibrationCache::Signature> keys(parts.size());
+  parallel_for_each(parts.size(), 8, [&](const unsigned int k) { keys[k] = key(*parts[k]); });
   using Kept = decltype(cache.row_elements)::mapped_type;
   const auto elements = ordered_values(
       cache.row_elements, keys,
-      [&](const unsigned int cell)
+      [&](const unsigned int k)
       {
-        const RowShape shape = shape_of(cell);
-        return Kept{std::make_unique<const RowElement>(
-                        cache.row_table(degrees[cell], points[cell], corners[cell]), shape),
+        const EquilibrationCache::Signature &of = keys[k];
+        return Kept{std::make_unique<const RowElement>(cache.row_table(of[0], of[3], of[2]),
+                                                       shape_of(*parts[k])),
                     false};
       });
-  for (unsigned int cell = 0; cell < cells.size(); ++cell)
+  for (unsigned int k = 0; k < parts.size(); ++k)
   {
-    elements[cell]->is_used = true;
-    cells[cell].element = elements[cell]->value.get();
+    elements[k]->is_used = true;
+    parts[k]->element = elements[k]->value.get();
   }
   parallel_for_each(cells.size(), 4, [&](const unsigned int cell) { set_cell(cell); });
 }
 
-RowShape RowStresses::shape_of(const unsigned int index) const
-{
-  const VertexPatches::Cell &cell = patches.cells()[index];
-  const Material &material = solution.scene.material_of(cell.iterator);
-  RowShape result{cell.iterator->material_id(), &material, map_of<2>(cell.iterator), 0., {}, 0.};
-  result.h = size_of(result.map);
-  for (unsigned int face = 0; face < 4; ++face)
-    result.densities[face] =
-        patches.edges()[cell.edges[face]].length / (cell.parts[face] < 2 ? 4 : 2);
-  result.antisymmetry = CellConstants(result.map).antisymmetry(material);
-  return result;
-}
-
-/** sigma(u_N) at points, without initial strains. */
-std::vector<SymmetricTensor<2, 2>> RowStresses::sigma(const unsigned int index,
-                                                      const ShapeTable<2> &table) const
+/** Where edges of the other body end, and so what that exerts may jump. */
+void RowStresses::cut(const unsigned int index)
 {
   const auto &iterator = patches.cells()[index].iterator;
   const CellMap<2> map = map_of<2>(iterator);
-  const std::vector<double> derivatives = evaluate(table.derivatives, solution.coefficients(index));
+  std::array<std::vector<double>, 2> cuts{{{0., 1.}, {0., 1.}}};
+  for (unsigned int face = 0; face < 4; ++face)
+    if (const JointEdge *const edge = master(index, face))
+      for (const JointPiece &piece : edge->pieces)
+        for (const double end : {piece.begin, piece.end})
+        {
+          std::vector<double> &along = cuts[1 - face / 2];
+          if (std::none_of(along.begin(), along.end(),
+                           [&](const double other) { return std::abs(end - other) < 1e-9; }))
+            along.push_back(end);
+        }
+  for (std::vector<double> &along : cuts)
+    std::sort(along.begin(), along.end());
+  for (unsigned int y = 0; y + 1 < cuts[1].size(); ++y)
+    for (unsigned int x = 0; x + 1 < cuts[0].size(); ++x)
+    {
+      const BoundingBox<2> box(std::pair<Point<2>, Point<2>>(
+          {cuts[0][x], cuts[1][y]}, {cuts[0][x + 1], cuts[1][y + 1]}));
+      Part part{index, box, map, nullptr, 0., {}, 0.};
+      if (cuts[0].size() > 2 || cuts[1].size() > 2)
+      {
+        CellMap<2>::Vertices corners;
+        for (const unsigned int v : GeometryInfo<2>::vertex_indices())
+          corners[v] = map.point(box.unit_to_real(GeometryInfo<2>::unit_cell_vertex(v)));
+        part.map = CellMap<2>(corners);
+      }
+      part.h = size_of(part.map);
+      cells[index].parts.push_back(part);
+    }
+  cells[index].n_xi = cuts[0].size() - 1;
+}
+
+/** The edge of a master's face, or null. */
+const JointEdge *RowStresses::master(const unsigned int cell, const unsigned int face) const
+{
+  const JointEdge *const edge = joints ? joints->edge(cell, face) : nullptr;
+  return edge && !edge->is_slave ? edge : nullptr;
+}
+
+/** Degree, material, corners and points; then what the map is. */
+EquilibrationCache::Signature RowStresses::key(const Part &part) const
+{
+  const VertexPatches::Cell &cell = patches.cells()[part.cell];
+  const RowShape shape = shape_of(part);
+  unsigned int degree = 0;
+  for (const unsigned int edge : cell.edges)
+    degree = std::max(degree, patches.edges()[edge].degree - 1);
+  unsigned int points = energy_points(shape.map, degree), corners = 0;
+  if (solution.scene.has_initial_strain()) // which is no polynomial of the cell's degree
+    points = std::max(
+        points, solution.spaces->loads
+                        ->initial_strain(cell.iterator,
+                                         solution.displacement_space.degrees()[part.cell])
+                        .most_points +
+                    2);
+  for (unsigned int corner = 0; corner < 4; ++corner)
+    if ((outer_corners(cell.iterator) & (1u << corner)) &&
+        part.box.unit_to_real(GeometryInfo<2>::unit_cell_vertex(corner)) ==
+            GeometryInfo<2>::unit_cell_vertex(corner))
+      corners |= 1u << corner;
+  EquilibrationCache::Signature result = {degree, shape.material, corners, points,
+                                          std::lround(std::log2(shape.antisymmetry) * 1e9)};
+  const auto add = [&](const Tensor<1, 2> &x)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      result.push_back(std::lround(x[d] / shape.h * 1e11));
+  };
+  for (const double density : shape.densities)
+    result.push_back(std::lround(density / shape.h * 1e11));
+  for (const Point<2> &v : shape.map.vertices())
+    add(v - shape.map.vertices()[0]);
+  for (unsigned int face = 0; shape.map.is_curved() && face < 4; ++face)
+    if (const EdgeBlend &blend = shape.map.blends()[face])
+    {
+      result.push_back(4 * blend.degree() + face);
+      for (unsigned int i = 1; i <= blend.degree(); ++i)
+        add(blend(i / (blend.degree() + 1.))[0]);
+    }
+  return result;
+}
+
+/** Constants are those of the whole cell: what has mean zero in each part has it in the cell. */
+RowShape RowStresses::shape_of(const Part &part) const
+{
+  const VertexPatches::Cell &cell = patches.cells()[part.cell];
+  const Material &material = solution.scene.material_of(cell.iterator);
+  RowShape result{cell.iterator->material_id(), &material, part.map, part.h, {}, 0.};
+  for (unsigned int face = 0; face < 4; ++face)
+  {
+    const double side = part.box.side_length(1 - face / 2);
+    const bool is_outer = part.box.vertex(face % 2 ? 3 : 0)[face / 2] == double(face % 2);
+    result.densities[face] =
+        is_outer ? side * patches.edges()[cell.edges[face]].length / (cell.parts[face] < 2 ? 4 : 2)
+                 : size_of(map_of<2>(cell.iterator)) / 2; // between parts
+  }
+  result.antisymmetry = CellConstants(map_of<2>(cell.iterator)).antisymmetry(material);
+  return result;
+}
+
+/** psi at a point of a part, its slopes by the part's reference coordinates. */
+RowStresses::Hat RowStresses::hat(const Part &part, const unsigned int v, const Point<2> &at) const
+{
+  const Bilinear psi(v, part.box.unit_to_real(at));
+  return {psi.value, Tensor<1, 2>({psi.slope[0] * part.box.side_length(0),
+                                   psi.slope[1] * part.box.side_length(1)})};
+}
+
+/** sigma(u_N) at points of a part, without initial strains. */
+std::vector<SymmetricTensor<2, 2>> RowStresses::sigma(const Part &part,
+                                                      const unsigned int n_gauss) const
+{
+  const auto &iterator = patches.cells()[part.cell].iterator;
+  const unsigned int p = solution.displacement_space.degrees()[part.cell];
+  std::optional<ShapeTable<2>> own;
+  if (cells[part.cell].parts.size() > 1)
+  {
+    const QGauss<2> gauss(n_gauss);
+    std::vector<Point<2>> points;
+    for (const Point<2> &point : gauss.get_points())
+      points.push_back(part.box.unit_to_real(point));
+    own.emplace(tabulate<2>(p, points, gauss.get_weights(), false));
+  }
+  const ShapeTable<2> &table = own ? *own : solution.tables.gradients(p, n_gauss);
+  const CellMap<2> map = map_of<2>(iterator);
+  const std::vector<double> derivatives =
+      evaluate(table.derivatives, solution.coefficients(part.cell));
   const HookesLaw<2> law(solution.scene.material_of(iterator));
   std::vector<SymmetricTensor<2, 2>> result;
   for (unsigned int q = 0; q < table.points.size(); ++q)
@@ -315,24 +404,22 @@ std::vector<SymmetricTensor<2, 2>> RowStresses::sigma(const unsigned int index,
 }
 
 /** `det DF (sigma grad psi)` by the points of the stiffness, where the discrete equations know sigma. */
-void RowStresses::add_stress(const unsigned int index, OfVertices &result) const
+void RowStresses::add_stress(const Part &part, OfVertices &result) const
 {
-  const Cell &cell = cells[index];
-  const auto &iterator = patches.cells()[index].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const unsigned int p = solution.displacement_space.degrees()[index], k = cell.element->table.k,
-                     n_gauss = map.is_curved() ? stiffness_points(map, p)
-                                               : std::max(stiffness_points(map, k), k + 1),
+  const unsigned int p = solution.displacement_space.degrees()[part.cell],
+                     k = part.element->table.k,
+                     n_gauss = part.map.is_curved() ? stiffness_points(part.map, p)
+                                                    : std::max(stiffness_points(part.map, k), k + 1),
                      n_modes = std::min(k + 1, n_gauss);
-  const ShapeTable<2> &table = solution.tables.gradients(p, n_gauss);
-  const std::vector<SymmetricTensor<2, 2>> stress = sigma(index, table);
+  const std::vector<SymmetricTensor<2, 2>> stress = sigma(part, n_gauss);
+  const std::vector<Point<2>> &points = solution.tables.gradients(p, n_gauss).points;
   const FullMatrix<double> &project = cache.legendre.projection(n_modes, n_gauss);
   std::vector<Tensor<2, 2>>
       fluxes; // det DF sigma DF^-T in units of h: sigma grad psi from reference slopes
-  for (unsigned int q = 0; q < table.points.size(); ++q)
+  for (unsigned int q = 0; q < points.size(); ++q)
   {
-    const Tensor<2, 2> J = map.jacobian(table.points[q]);
-    fluxes.push_back(determinant(J) / (4 * cell.h) * Tensor<2, 2>(stress[q]) *
+    const Tensor<2, 2> J = part.map.jacobian(points[q]);
+    fluxes.push_back(determinant(J) / (4 * part.h) * Tensor<2, 2>(stress[q]) *
                      transpose(invert(J)));
   }
   FullMatrix<double> values(n_gauss, n_gauss), half(n_modes, n_gauss), modes(n_modes, n_modes);
@@ -341,86 +428,50 @@ void RowStresses::add_stress(const unsigned int index, OfVertices &result) const
     {
       for (unsigned int b = 0; b < n_gauss; ++b)
         for (unsigned int a = 0; a < n_gauss; ++a)
-          values(a, b) =
-              fluxes[b * n_gauss + a][row] * Bilinear(v, table.points[b * n_gauss + a]).slope;
+          values(a, b) = fluxes[b * n_gauss + a][row] * hat(part, v, points[b * n_gauss + a]).slope;
       project.mmult(half, values);
       half.mTmult(modes, project);
       for (unsigned int i = 0; i < n_modes; ++i)
         for (unsigned int j = 0; j < n_modes; ++j)
           result.divergence[v][(row * (k + 1) + i) * (k + 1) + j] += modes(i, j);
     }
-  if (!map.is_curved())
+  if (!part.map.is_curved())
     return;
-  const BeyondSpace beyond(solution, patches.cells()[index], map);
+  const BeyondSpace beyond(solution, patches.cells()[part.cell], part.map);
+  const ShapeTable<2> &table = solution.tables.gradients(p, n_gauss);
   for (unsigned int v = 0; v < 4; ++v)
     for (unsigned int q = 0; q < table.points.size(); ++q)
-      result.moment[v] -=
-          table.weights[q] * 4 * cell.h * scalar_product(fluxes[q], beyond.slopes(v, table, q));
+      result.moment[v] -= table.weights[q] * 4 * part.h *
+                          scalar_product(fluxes[q], beyond.slopes(v, table, q));
 }
 
 /** Body forces and initial strains by the points of their rules, where the discrete equations know them. */
-void RowStresses::add_loads(const unsigned int index, OfVertices &result)
+void RowStresses::add_loads(Part &part, OfVertices &result)
 {
-  Cell &cell = cells[index];
   const Scene<2> &scene = solution.scene;
-  const auto &iterator = patches.cells()[index].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const unsigned int p = solution.displacement_space.degrees()[index],
-                     n = cell.element->table.k + 1;
-  const HookesLaw<2> law(scene.material_of(iterator));
+  const auto &iterator = patches.cells()[part.cell].iterator;
+  const unsigned int p = solution.displacement_space.degrees()[part.cell];
   std::optional<BeyondSpace> beyond;
-  if (map.is_curved())
-    beyond.emplace(solution, patches.cells()[index], map);
-  const auto add = [&](const LoadRule<2> &rule, const bool is_force)
-  {
-    const Quadrature<2> &points = rule.quadrature;
-    const unsigned int n_modes = std::min(
-        n, rule.most_points); // no more than its points tell, whatever a neighbour asks for
-    const ShapeTable<2> table =
-        tabulate<2>(beyond ? p : 1, points.get_points(), points.get_weights(), false);
-    for (unsigned int q = 0; q < points.size(); ++q)
-    {
-      const Tensor<2, 2> J = map.jacobian(points.point(q));
-      const Point<2> x = map.point(points.point(q));
-      const auto L_x = legendre::values(n, 2 * points.point(q)[0] - 1),
-                 L_y = legendre::values(n, 2 * points.point(q)[1] - 1);
-      const Tensor<1, 2> F =
-          is_force ? load_at<2>(scene.body_force_in(iterator), x) : Tensor<1, 2>();
-      const Tensor<2, 2> flux =
-          is_force ? Tensor<2, 2>()
-                   : Tensor<2, 2>(law.stress(scene.initial_strain_in(iterator, x))) *
-                         transpose(invert(J));
-      for (unsigned int v = 0; v < 4; ++v)
-      {
-        const Bilinear psi(v, points.point(q));
-        const Tensor<1, 2> d =
-            -points.weight(q) * determinant(J) / cell.h * (psi.value * F + flux * psi.slope);
-        for (unsigned int row = 0; row < 2; ++row)
-          for (unsigned int i = 0; i < n_modes; ++i)
-            for (unsigned int j = 0; j < n_modes; ++j)
-            {
-              result.divergence[v][(row * n + i) * n + j] += d[row] * L_x[i] * L_y[j];
-              if (is_force)
-                cell.divergence[(row * n + i) * n + j] += d[row] * L_x[i] * L_y[j];
-            }
-        if (beyond)
-          result.moment[v] +=
-              points.weight(q) * determinant(J) *
-              (F * beyond->value(v, table, q) + scalar_product(flux, beyond->slopes(v, table, q)));
-      }
-    }
-  };
+  if (part.map.is_curved())
+    beyond.emplace(solution, patches.cells()[part.cell], part.map);
+  const HookesLaw<2> law(scene.material_of(iterator));
+  const auto force = [&](const Point<2> &x)
+  { return std::pair(load_at<2>(scene.body_force_in(iterator), x), SymmetricTensor<2, 2>()); };
+  const auto initial = [&](const Point<2> &x)
+  { return std::pair(Tensor<1, 2>(), law.stress(scene.initial_strain_in(iterator, x))); };
   if (scene.has_body_force())
-    add(solution.spaces->loads->body_force(iterator, p), true);
+    add_load(part, solution.spaces->loads->body_force(iterator, p), force, beyond ? &*beyond : nullptr,
+             &part.divergence, result);
   if (scene.has_initial_strain())
-    add(solution.spaces->loads->initial_strain(iterator, p), false);
+    add_load(part, solution.spaces->loads->initial_strain(iterator, p), initial,
+             beyond ? &*beyond : nullptr, nullptr, result);
   for (unsigned int face = 0; beyond && face < 4; ++face)
-    if (map.blends()[face] && iterator->at_boundary(face))
+    if (part.map.blends()[face] && iterator->at_boundary(face))
     {
       std::map<double, ShapeTable<2>> at; // of all four psi
       for (unsigned int v = 0; v < 4; ++v)
         result.moment[v] += boundary.work_of_loads(
-            patches.cells()[index].edges[face],
+            patches.cells()[part.cell].edges[face],
             [&](const double s)
             {
               auto found = at.find(s);
@@ -433,124 +484,268 @@ void RowStresses::add_loads(const unsigned int index, OfVertices &result)
     }
 }
 
-void RowStresses::set_cell(const unsigned int index)
+/** Of a force and an initial stress, which @p load gives; @p of_force: what is to have the divergence of the force without psi. */
+template <class Load>
+void RowStresses::add_load(const Part &part, const LoadRule<2> &rule, const Load &load,
+                           const BeyondSpace *const beyond, std::vector<double> *const of_force,
+                           OfVertices &result) const
 {
-  Cell &cell = cells[index];
-  const RowElement &element = *cell.element;
-  const unsigned int n = element.table.k + 1;
-  const CellMap<2> map = map_of<2>(patches.cells()[index].iterator);
-  cell.h = size_of(map);
-  cell.divergence.assign(2 * n * n, 0.);
-  OfVertices of_vertices;
-  for (auto &divergence : of_vertices.divergence)
-    divergence.assign(2 * n * n, 0.);
-  add_stress(index, of_vertices);
-  add_loads(index, of_vertices);
-  const RowValues &values = element.values;
-  const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(index);
-  std::vector<double> moment;
-  if (map.is_curved())
-    moment = unit_moment(
-        element, map, cell.h,
-        std::min(n, stiffness_points(map, solution.displacement_space.degrees()[index])));
-  std::array<std::vector<double>, 4> gradients;
-  std::array<std::array<double, 3>, 4> defects;
+  const Quadrature<2> &points = rule.quadrature;
+  const unsigned int p = solution.displacement_space.degrees()[part.cell],
+                     n = part.element->table.k + 1,
+                     n_modes = std::min(n, rule.most_points); // no more than its points tell
+  const ShapeTable<2> table =
+      tabulate<2>(beyond ? p : 1, points.get_points(), points.get_weights(), false);
+  for (unsigned int q = 0; q < points.size(); ++q)
+  {
+    const Tensor<2, 2> J = part.map.jacobian(points.point(q));
+    const auto L_x = legendre::values(n, 2 * points.point(q)[0] - 1),
+               L_y = legendre::values(n, 2 * points.point(q)[1] - 1);
+    const auto [F, stress] = load(part.map.point(points.point(q)));
+    const Tensor<2, 2> flux = Tensor<2, 2>(stress) * transpose(invert(J));
+    const double weight = points.weight(q) * determinant(J);
+    const auto add = [&](const Tensor<1, 2> &d, std::vector<double> &target)
+    {
+      for (unsigned int row = 0; row < 2; ++row)
+        for (unsigned int i = 0; i < n_modes; ++i)
+          for (unsigned int j = 0; j < n_modes; ++j)
+            target[(row * n + i) * n + j] -= weight / part.h * d[row] * L_x[i] * L_y[j];
+    };
+    if (of_force)
+      add(F, *of_force);
+    for (unsigned int v = 0; v < 4; ++v)
+    {
+      const Hat psi = hat(part, v, points.point(q));
+      add(psi.value * F + flux * psi.slope, result.divergence[v]);
+      if (beyond)
+        result.moment[v] += weight * (F * beyond->value(v, table, q) +
+                                      scalar_product(flux, beyond->slopes(v, table, q)));
+    }
+  }
+}
+
+/** What the slave exerts on the faces of a part in a joint, for each psi: tractions in the order of TractionEnergy. */
+void RowStresses::add_joints(const Part &part, OfVertices &result) const
+{
+  const unsigned int n = part.element->table.k + 1;
+  for (unsigned int face = 0; face < 4; ++face)
+  {
+    const JointEdge *const edge = master(part.cell, face);
+    if (!edge || part.box.vertex(face % 2 ? 3 : 0)[face / 2] != double(face % 2))
+      continue;
+    const unsigned int along = 1 - face / 2;
+    const double begin = part.box.lower_bound(along), length = part.box.side_length(along);
+    for (JointPiece piece : edge->pieces)
+    {
+      if (piece.begin > begin + length / 2 || piece.end < begin + length / 2)
+        continue;
+      const std::array<double, 2> ends{{piece.on_slave(begin), piece.on_slave(begin + length)}};
+      piece.begin = 0.;
+      piece.end = 1.;
+      piece.at_begin = ends[0];
+      piece.at_end = ends[1];
+      for (const auto &[s, weight] : joints->points(piece, n))
+      {
+        const Tensor<1, 2> T = (face % 2 ? 1. : -1.) * joints->value(piece.face, piece.on_slave(s));
+        const std::vector<double> L = legendre::values(n, 2 * s - 1);
+        for (unsigned int v = 0; v < 4; ++v)
+        {
+          const double psi = hat(part, v, point_on_face<2>(face, Point<1>(s))).value;
+          for (unsigned int row = 0; row < 2; ++row)
+            for (unsigned int i = 0; i < n; ++i)
+              result.tractions[v][(2 * face + row) * n + i] += 2 * weight * psi * T[row] * L[i];
+        }
+      }
+    }
+  }
+}
+
+/** Data of each psi: their gradients by tractions of faces, what they miss of equilibrium. */
+RowStresses::OfVertices RowStresses::data_of(Part &part)
+{
+  const RowElement &element = *part.element;
+  const unsigned int n = element.table.k + 1, n_edges = 8 * n;
+  part.divergence.assign(2 * n * n, 0.);
+  OfVertices result;
   for (unsigned int v = 0; v < 4; ++v)
   {
-    std::vector<double> &divergence = of_vertices.divergence[v];
+    result.divergence[v].assign(2 * n * n, 0.);
+    result.tractions[v].assign(n_edges, 0.);
+  }
+  add_stress(part, result);
+  add_loads(part, result);
+  if (joints)
+    add_joints(part, result);
+  const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(part);
+  std::vector<double> moment;
+  if (part.map.is_curved())
+    moment = unit_moment(
+        element, part.map, part.h,
+        std::min(n, stiffness_points(part.map, solution.displacement_space.degrees()[part.cell])));
+  const TractionEnergy energy = element.energy();
+  for (unsigned int v = 0; v < 4; ++v)
+  {
+    std::vector<double> &divergence = result.divergence[v];
     for (unsigned int i = 0; i < moment.size(); ++i)
-      divergence[i] += of_vertices.moment[v] / (cell.h * cell.h) * moment[i];
+      divergence[i] += result.moment[v] / (part.h * part.h) * moment[i];
     RowFields fields(element.table);
     for (unsigned int row = 0; row < 2; ++row)
       std::copy(&divergence[row * n * n], &divergence[row * n * n] + n * n,
                 &fields.fields[row * element.table.n_fields() + element.table.of_divergence()]);
     RowValues::Stress difference(element.table);
-    values.add(fields, difference);
+    element.values.add(fields, difference);
     for (unsigned int q = 0; q < stress.size(); ++q)
-      values.subtract(q, stress[q], Bilinear(v, element.table.points[q]).value, difference);
-    gradients[v] = element.reduced(values.derivatives(difference));
-    defects[v] = element.moments(divergence.data());
+      element.values.subtract(q, stress[q], hat(part, v, element.table.points[q]).value, difference);
+    result.gradients[v] = element.reduced(element.values.derivatives(difference));
+    result.defects[v] = element.moments(divergence.data());
+    for (double &defect : result.defects[v])
+      defect = -defect;
+    if (std::all_of(result.tractions[v].begin(), result.tractions[v].end(),
+                    [](const double value) { return value == 0.; }))
+      continue;
+    multiply('N', 'N', n_edges, 1, n_edges, 1., energy.G, {result.tractions[v].data(), n_edges}, 1.,
+             result.gradients[v].data(), n_edges);
+    multiply('T', 'N', 3, 1, n_edges, 1., energy.N, {result.tractions[v].data(), n_edges}, 1.,
+             result.defects[v].data(), 3);
   }
-  for (const VertexPatches::Hat &hat : patches.cells()[index].hats)
-  {
-    for (unsigned int i = 0; i < gradients[0].size(); ++i)
-    {
-      double sum = 0;
-      for (unsigned int v = 0; v < 4; ++v)
-        sum += hat.values[v] * gradients[v][i];
-      cell.gradients.push_back(sum);
-    }
-    for (unsigned int i = 0; i < RowElement::n_conditions; ++i)
-    {
-      double sum = 0;
-      for (unsigned int v = 0; v < 4; ++v)
-        sum -= hat.values[v] * defects[v][i];
-      cell.defects.push_back(sum);
-    }
-  }
-  set_missed_force(index);
-}
-
-/** sigma(u_N) at the points of the element, less the initial stress there. */
-std::vector<SymmetricTensor<2, 2>> RowStresses::stress_at_points(const unsigned int index) const
-{
-  const RowTable &table = cells[index].element->table;
-  const unsigned int p = solution.displacement_space.degrees()[index];
-  std::vector<SymmetricTensor<2, 2>> result =
-      sigma(index, solution.tables.gradients(p, table.n_gauss));
-  if (!solution.scene.has_initial_strain())
-    return result;
-  const auto &iterator = patches.cells()[index].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const HookesLaw<2> law(solution.scene.material_of(iterator));
-  for (unsigned int q = 0; q < result.size(); ++q)
-    result[q] -= law.stress(solution.scene.initial_strain_in(iterator, map.point(table.points[q])));
   return result;
 }
 
-void RowStresses::set_missed_force(const unsigned int index)
+void RowStresses::set_cell(const unsigned int index)
+{
+  Cell &cell = cells[index];
+  std::array<CutElement::Data, 4> data; // by vertex
+  std::array<std::vector<double>, 4> gradients;
+  std::array<std::array<double, 3>, 4> defects;
+  for (Part &part : cell.parts)
+  {
+    const OfVertices own = data_of(part);
+    part.tractions = own.tractions[0];
+    for (unsigned int v = 0; v < 4; ++v)
+    {
+      data[v].gradients.push_back(own.gradients[v]);
+      data[v].defects.push_back(own.defects[v]);
+      for (unsigned int i = 0; v > 0 && i < part.tractions.size(); ++i)
+        part.tractions[i] += own.tractions[v][i];
+    }
+    set_missed_force(part);
+  }
+  join_parts(index);
+  for (unsigned int v = 0; v < 4; ++v)
+  {
+    gradients[v] = cell.joined ? cell.joined->gradient(data[v]) : data[v].gradients[0];
+    defects[v] = cell.joined ? cell.joined->defect(data[v]) : data[v].defects[0];
+  }
+  cell.data = data[0];
+  for (unsigned int v = 1; cell.joined && v < 4; ++v)
+    for (unsigned int part = 0; part < cell.parts.size(); ++part)
+    {
+      for (unsigned int i = 0; i < gradients[0].size(); ++i)
+        cell.data.gradients[part][i] += data[v].gradients[part][i];
+      for (unsigned int i = 0; i < 3; ++i)
+        cell.data.defects[part][i] += data[v].defects[part][i];
+    }
+  for (const VertexPatches::Hat &hat : patches.cells()[index].hats)
+  {
+    const auto of_hat = [&](const auto &by_vertex, const unsigned int i)
+    {
+      double sum = 0;
+      for (unsigned int v = 0; v < 4; ++v)
+        sum += hat.values[v] * by_vertex[v][i];
+      return sum;
+    };
+    for (unsigned int i = 0; i < gradients[0].size(); ++i)
+      cell.gradients.push_back(of_hat(gradients, i));
+    for (unsigned int i = 0; i < RowElement::n_conditions; ++i)
+      cell.defects.push_back(of_hat(defects, i));
+  }
+}
+
+/** One element of all parts; none where there is one. */
+void RowStresses::join_parts(const unsigned int index)
+{
+  Cell &cell = cells[index];
+  const CellMap<2> map = map_of<2>(patches.cells()[index].iterator);
+  cell.h = size_of(map);
+  if (cell.parts.size() == 1)
+    return;
+  std::vector<CutElement::Part> parts;
+  for (const Part &part : cell.parts)
+    parts.push_back({part.box, part.element, part.h, part.map.point({0.5, 0.5})});
+  cell.joined =
+      std::make_unique<const CutElement>(parts, cell.n_xi, cell.h, map.point({0.5, 0.5}));
+}
+
+/** sigma(u_N) at the points of the element, less the initial stress there. */
+std::vector<SymmetricTensor<2, 2>> RowStresses::stress_at_points(const Part &part) const
+{
+  const RowTable &table = part.element->table;
+  std::vector<SymmetricTensor<2, 2>> result = sigma(part, table.n_gauss);
+  if (!solution.scene.has_initial_strain())
+    return result;
+  const auto &iterator = patches.cells()[part.cell].iterator;
+  const HookesLaw<2> law(solution.scene.material_of(iterator));
+  for (unsigned int q = 0; q < result.size(); ++q)
+    result[q] -=
+        law.stress(solution.scene.initial_strain_in(iterator, part.map.point(table.points[q])));
+  return result;
+}
+
+void RowStresses::set_missed_force(Part &part)
 {
   if (!solution.scene.has_body_force())
     return;
-  Cell &cell = cells[index];
-  const auto &iterator = patches.cells()[index].iterator;
-  const CellMap<2> map = map_of<2>(iterator);
-  const unsigned int n = cell.element->table.k + 1;
+  const auto &iterator = patches.cells()[part.cell].iterator;
+  const unsigned int n = part.element->table.k + 1;
   const LoadRule<2> rule = solution.spaces->loads->body_force(iterator, n + 1);
   double sum = 0;
   for (unsigned int q = 0; q < rule.quadrature.size(); ++q)
   {
     const Point<2> &reference = rule.quadrature.point(q);
-    const double det = determinant(map.jacobian(reference));
+    const double det = determinant(part.map.jacobian(reference));
     const auto L_x = legendre::values(n, 2 * reference[0] - 1),
                L_y = legendre::values(n, 2 * reference[1] - 1);
-    Tensor<1, 2> missed = load_at<2>(solution.scene.body_force_in(iterator), map.point(reference));
+    Tensor<1, 2> missed =
+        load_at<2>(solution.scene.body_force_in(iterator), part.map.point(reference));
     for (unsigned int row = 0; row < 2; ++row)
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
           missed[row] +=
-              4 * cell.h / det * cell.divergence[(row * n + i) * n + j] * L_x[i] * L_y[j];
+              4 * part.h / det * part.divergence[(row * n + i) * n + j] * L_x[i] * L_y[j];
     sum += rule.quadrature.weight(q) * det * missed.norm_square();
   }
-  cell.missed_force = std::sqrt(sum);
+  part.missed_force = std::sqrt(sum);
 }
 
 PatchCell RowStresses::patch_cell(const unsigned int index, const unsigned int hat) const
 {
   const Cell &cell = cells[index];
-  const TractionEnergy energy = cell.element->energy();
+  const TractionEnergy energy =
+      cell.joined ? cell.joined->energy() : cell.parts[0].element->energy();
   return {energy, cell.h * cell.h, &cell.gradients[hat * energy.n_edges()],
           &cell.defects[hat * energy.n_conditions], &patches.cells()[index]};
 }
 
-/** s - sigma(u_N), and s by its fields. */
-RowValues::Stress RowStresses::residual(const unsigned int index,
-                                        const std::vector<double> &tractions,
-                                        RowFields &fields) const
+/** Of each part, what it has in joints included. */
+std::vector<std::vector<double>>
+RowStresses::tractions_of_parts(const unsigned int index, const std::vector<double> &tractions) const
 {
   const Cell &cell = cells[index];
-  const RowTable &table = cell.element->table;
-  const RowValues &values = cell.element->values;
+  std::vector<std::vector<double>> result{tractions};
+  if (cell.joined)
+    result = cell.joined->tractions(tractions, cell.data);
+  for (unsigned int part = 0; part < result.size(); ++part)
+    for (unsigned int i = 0; i < tractions.size(); ++i)
+      result[part][i] += cell.parts[part].tractions[i];
+  return result;
+}
+
+/** s - sigma(u_N), and s by its fields. */
+RowValues::Stress RowStresses::residual(const Part &part, const std::vector<double> &tractions,
+                                        RowFields &fields) const
+{
+  const RowTable &table = part.element->table;
+  const RowValues &values = part.element->values;
   const unsigned int n = table.k + 1;
   for (unsigned int row = 0; row < 2; ++row)
   {
@@ -558,16 +753,16 @@ RowValues::Stress RowStresses::residual(const unsigned int index,
     for (unsigned int face = 0; face < 4; ++face)
       for (unsigned int i = 0; i < n; ++i)
         own[table.of_face(face) + i] =
-            cell.element->scale[face] * tractions[(2 * face + row) * n + i];
-    std::copy(&cell.divergence[row * n * n], &cell.divergence[row * n * n] + n * n,
+            part.element->scale[face] * tractions[(2 * face + row) * n + i];
+    std::copy(&part.divergence[row * n * n], &part.divergence[row * n * n] + n * n,
               own + table.of_divergence());
   }
   RowValues::Stress result(table);
   values.add(fields, result);
-  const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(index);
+  const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(part);
   for (unsigned int q = 0; q < stress.size(); ++q)
     values.subtract(q, stress[q], 1., result);
-  const RowFields change = cell.element->best_bubbles(values.derivatives(result));
+  const RowFields change = part.element->best_bubbles(values.derivatives(result));
   values.add(change, result);
   for (unsigned int i = 0; i < fields.fields.size(); ++i)
     fields.fields[i] += change.fields[i];
@@ -578,26 +773,38 @@ RowValues::Stress RowStresses::residual(const unsigned int index,
 RowStresses::Distance RowStresses::distance(const unsigned int index,
                                             const std::vector<double> &tractions) const
 {
-  const Cell &cell = cells[index];
-  const RowValues &values = cell.element->values;
-  RowFields fields(cell.element->table);
-  const RowValues::Stress missed = residual(index, tractions, fields);
-  return {cell.h * cell.h * values.square(missed, false),
-          cell.h * std::sqrt(values.square(missed, true) / RowValues::theta)};
+  Distance result{0., 0.};
+  const std::vector<std::vector<double>> by_part = tractions_of_parts(index, tractions);
+  for (unsigned int k = 0; k < by_part.size(); ++k)
+  {
+    const Part &part = cells[index].parts[k];
+    RowFields fields(part.element->table);
+    const RowValues::Stress missed = residual(part, by_part[k], fields);
+    const double area = part.h * part.h;
+    result.square += area * part.element->values.square(missed, false);
+    result.antisymmetry += area * part.element->values.square(missed, true) / RowValues::theta;
+  }
+  result.antisymmetry = std::sqrt(result.antisymmetry);
+  return result;
 }
 
 Tensor<2, 2> RowStresses::value(const unsigned int index, const std::vector<double> &tractions,
-                                const Point<2> &reference) const
+                                const Point<2> &at) const
 {
-  const RowTable &table = cells[index].element->table;
-  const RowShape shape = shape_of(index);
+  const std::vector<Part> &parts = cells[index].parts;
+  const auto found = std::find_if(parts.begin(), parts.end(),
+                                  [&](const Part &part) { return part.box.point_inside(at); });
+  const Part &part = *found;
+  const Point<2> reference = part.box.real_to_unit(at);
+  const RowTable &table = part.element->table;
+  const RowShape shape = shape_of(part);
   RowFields fields(table);
-  residual(index, tractions, fields);
-  const std::array<std::vector<double>, 2> at = table.at(reference);
+  residual(part, tractions_of_parts(index, tractions)[found - parts.begin()], fields);
+  const std::array<std::vector<double>, 2> fields_at = table.at(reference);
   Tensor<2, 2> flux;
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int d = 0; d < 2; ++d)
-      flux[row][d] = std::inner_product(at[d].begin(), at[d].end(),
+      flux[row][d] = std::inner_product(fields_at[d].begin(), fields_at[d].end(),
                                         &fields.fields[row * table.n_fields()], 0.);
   for (unsigned int c = 0; c < table.corners.size(); ++c)
   {
@@ -613,8 +820,41 @@ Tensor<2, 2> RowStresses::value(const unsigned int index, const std::vector<doub
   return flux * transpose(J) / determinant(J);
 }
 
-double RowStresses::missed_force(const unsigned int cell) const
+double RowStresses::missed_force(const unsigned int index) const
 {
-  return cells[cell].missed_force;
+  double square = 0;
+  for (const Part &part : cells[index].parts)
+    square += part.missed_force * part.missed_force;
+  return std::sqrt(square);
+}
+
+double RowStresses::missed_traction(const unsigned int index, const unsigned int face) const
+{
+  double square = 0;
+  const JointEdge *const edge = master(index, face);
+  if (!edge)
+    return square;
+  for (const Part &part : cells[index].parts)
+  {
+    if (part.box.vertex(face % 2 ? 3 : 0)[face / 2] != double(face % 2))
+      continue;
+    const unsigned int along = 1 - face / 2, n = part.element->table.k + 1;
+    const double begin = part.box.lower_bound(along), length = part.box.side_length(along);
+    for (const JointPiece &piece : edge->pieces)
+      for (const auto &[s, weight] : joints->points(piece, 2 * n))
+        if (const double at = (s - begin) / length; at > 0. && at < 1.)
+        {
+          const Tensor<1, 2> exact =
+              (face % 2 ? 1. : -1.) * joints->value(piece.face, piece.on_slave(s));
+          const std::vector<double> L = legendre::values(n, 2 * at - 1);
+          for (unsigned int row = 0; row < 2; ++row)
+          {
+            const double missed = std::inner_product(
+                L.begin(), L.end(), &part.tractions[(2 * face + row) * n], -exact[row]);
+            square += (piece.end - piece.begin) * weight * missed * missed;
+          }
+        }
+  }
+  return std::sqrt(square * patches.edges()[patches.cells()[index].edges[face]].length);
 }
 } // namespace hpvi

@@ -58,6 +58,11 @@ bool has_long_cells(const Solution<2> &solution)
 
 namespace
 {
+const BoundaryCondition<2> &condition_of(const StressEdge &edge, const Solution<2> &solution)
+{
+  return solution.scene.boundaries[edge.boundary];
+}
+
 /** Of the cell of the body opposite: which way its edge runs, and how its own normal is turned. */
 std::pair<unsigned int, double> placed(const StressEdge &edge, const ContactSegment<2> &opposite)
 {
@@ -70,16 +75,18 @@ std::pair<unsigned int, double> placed(const StressEdge &edge, const ContactSegm
 }
 } // namespace
 
-VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_rows) : has_rows(has_rows)
+VertexPatches::VertexPatches(const Solution<2> &solution, const bool has_rows,
+                             const JointTractions *const joints)
+    : has_rows(has_rows)
 {
-  collect_edges(solution);
+  collect_edges(solution, joints);
   for (StressEdge &edge : all_edges)
     set_components(solution.scene, edge);
   join_vertices();
   set_hats(solution);
 }
 
-void VertexPatches::collect_edges(const Solution<2> &solution)
+void VertexPatches::collect_edges(const Solution<2> &solution, const JointTractions *const joints)
 {
   const Degrees &degrees = solution.displacement_space.degrees();
   all_cells.resize(degrees.size());
@@ -92,7 +99,8 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
   {
     contact[{contact_faces[f].cell->active_cell_index(), contact_faces[f].face_no}] = f;
     for (const ContactSegment<2> &segment : contact_faces[f].segments)
-      opposite.insert({segment.cell->active_cell_index(), segment.face_no});
+      if (!joints)
+        opposite.insert({segment.cell->active_cell_index(), segment.face_no});
   }
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
     for (unsigned int f = 0; f < 4; ++f)
@@ -117,6 +125,13 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
           edge.degree =
               traction_degree(contact_faces[found->second], solution.z, solution.contact_space) + 2;
         }
+        if (const JointEdge *const joint = joints ? joints->edge(index, f) : nullptr)
+        {
+          // a bilateral foundation has no multiplier along its normal
+          edge.is_given = joint->pieces[0].has_other || condition_of(edge, solution).is_unilateral() ||
+                          condition_of(edge, solution).contact == Contact::tangential;
+          edge.degree = std::max(edge.degree, joints->degree(*joint) + 2);
+        }
       }
       else if (cell->face(f)->has_children())
       {
@@ -140,7 +155,7 @@ void VertexPatches::collect_edges(const Solution<2> &solution)
       if (!has_rows && std::abs(across * edge.tangent) >
                            1e-10 * across.norm()) // or round-off, far from the origin
         edge.skew = (across * edge.tangent) / (across * edge.normal);
-      if (edge.contact_face != numbers::invalid_unsigned_int)
+      if (!joints && edge.contact_face != numbers::invalid_unsigned_int)
         if (const ContactSegment<2> *const other =
                 whole_face_opposite(contact_faces[edge.contact_face]))
         {
@@ -172,13 +187,14 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
   if (!edge.at_boundary())
     return;
   const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
-  if (condition.has_contact())
+  if (edge.is_given)
+    one.is_unknown = other.is_unknown = false;
+  else if (condition.has_contact())
   {
     one.is_unknown = condition.contact == Contact::bilateral || condition.is_tied();
     other.is_unknown = condition.is_tied();
-    return;
   }
-  if (condition.plate)
+  if (edge.is_given || condition.has_contact() || condition.plate)
     return;
   if (condition.symmetry)
   {

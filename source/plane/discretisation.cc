@@ -37,7 +37,7 @@ std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
 {
   if (const std::string why = hpvi::no_error_bound(scene); !why.empty())
     return why;
-  return past.empty() ? unmatched_joint(contact_space)
+  return past.empty() ? unbounded_joint(contact_space)
                       : "friction acts on increments after the first load step";
 }
 

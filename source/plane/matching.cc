@@ -66,6 +66,17 @@ std::string unmatched_joint(const ContactSpace<dim> &contact_space)
   return unequal;
 }
 
+template <int dim>
+std::string unbounded_joint(const ContactSpace<dim> &contact_space)
+{
+  const std::string unmatched = unmatched_joint(contact_space);
+  for (const ContactFace<dim> &face : contact_space.faces())
+    for (const ContactSegment<dim> &segment : face.segments)
+      if (!unmatched.empty() && (segment.drawn || map_of<dim>(segment.cell).is_curved()))
+        return unmatched + ", where sides are curved or at an angle to each other";
+  return {};
+}
+
 namespace
 {
 /** Is [begin, end] a part of [0, 1] that bisections make of it? */
@@ -221,6 +232,7 @@ void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<d
 template struct FaceDofs<2>;
 template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
 template std::string unmatched_joint(const ContactSpace<2> &);
+template std::string unbounded_joint(const ContactSpace<2> &);
 template std::string no_error_bound(const Scene<2> &);
 template std::string no_error_bound(const Scene<3> &);
 template void match_nested(const Scene<2> &, const ShapeTables<2> &, Triangulation<2> &, Degrees &);

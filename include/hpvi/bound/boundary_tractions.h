@@ -21,9 +21,9 @@ public:
   /** By end of an edge and component: Legendre coefficients. */
   using Halves = std::array<std::array<std::vector<double>, 2>, 2>;
 
-  /** As EquilibratedStress has them; @p solution and @p patches must outlive this object. */
+  /** As EquilibratedStress has them; @p solution, @p patches and @p joints must outlive this object. */
   BoundaryTractions(const Solution<2> &solution, const VertexPatches &patches,
-                    const Parts &friction, const Parts &pressure);
+                    const Parts &friction, const Parts &pressure, const JointTractions *joints);
 
   /** The traction at s in [0,1] of an edge. */
   dealii::Tensor<1, 2> value(unsigned int edge, double s) const;
@@ -73,6 +73,8 @@ private:
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
                                    double bound) const;
   void set(unsigned int edge);
+  void add_contact(unsigned int edge);
+  void add_joint(unsigned int edge);
   void add_load(unsigned int edge, double s, double weight,
                 const std::array<dealii::Tensor<1, 2>, 2> &tractions);
   void meet_ends(const StressEdge &edge, unsigned int end, const dealii::Tensor<1, 2> &at_end);
@@ -80,6 +82,7 @@ private:
 
   const Solution<2> &solution;
   const VertexPatches &patches;
+  const JointTractions *const joints; ///< null: contact_parts are given
   std::vector<ContactParts> contact_parts; ///< by contact face
   std::vector<Halves> halves;              ///< by edge
 };

@@ -28,6 +28,12 @@ double largest_value(const EdgePolynomial &polynomial, double round_off);
 double height_over(const EdgePolynomial &polynomial, const std::array<bool, 2> &held,
                    double round_off, const ShapeTables<2> &tables);
 
+/** |w|_a^2 of a w in V_N by its unknowns, by active cell, each with the springs on its edges. */
+template <int dim>
+std::vector<double> energies_by_cell(const Solution<dim> &solution,
+                                     const Discretisation<dim> &discretisation,
+                                     const dealii::Vector<double> &w);
+
 /** Finds w of ContactCorrection, which says what is asked of it. */
 template <int dim>
 class CorrectionSearch

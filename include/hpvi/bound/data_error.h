@@ -3,6 +3,7 @@
 #define hpvi_data_error_h
 
 #include <hpvi/bound/equilibrated_stress.h>
+#include <hpvi/bound/joint_lift.h>
 
 #include <vector>
 
@@ -36,7 +37,9 @@ namespace hpvi
 class DataError
 {
 public:
-  DataError(const Solution<2> &solution, const EquilibratedStress &stress);
+  /** @p joints: a part of d, null: there is none. */
+  DataError(const Solution<2> &solution, const EquilibratedStress &stress,
+            const JointLift *joints = nullptr);
 
   std::vector<double> oscillation; ///< of loads, by active cell index: to be added to |s - sigma|_K
   std::vector<double> lifts;       ///< |d|_K with the springs of its edges, by active cell index

@@ -4,9 +4,11 @@
 
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/shape_tables.h>
+#include <hpvi/scene/boundary_condition.h>
 #include <hpvi/scene/material.h>
 
 #include <array>
+#include <vector>
 
 namespace hpvi
 {
@@ -25,6 +27,25 @@ namespace hpvi
 double lift_energy(const CellMap<2> &map, unsigned int face,
                    const std::array<dealii::Vector<double>, 2> &delta, const HookesLaw<2> &law,
                    const ShapeTables<2> &tables);
+
+/** A displacement at a point of a quadrature rule along an edge. */
+struct EdgePoint
+{
+  double s, weight;          ///< in [0,1]; the sum of weights is 1
+  dealii::Tensor<1, 2> value, slope; ///< slope by s
+};
+
+/** Of a polynomial by its Legendre coefficients, as many points as those and @p more. */
+std::vector<EdgePoint> edge_points(const std::array<dealii::Vector<double>, 2> &delta,
+                                   unsigned int more, const ShapeTables<2> &tables);
+
+/** The same with `delta(s) (1 - n)^q` alone, for pieces of polynomials which the points integrate. */
+double lift_energy(const CellMap<2> &map, unsigned int face, const std::vector<EdgePoint> &delta,
+                   const HookesLaw<2> &law, const ShapeTables<2> &tables);
+
+/** int k delta . delta over an edge, of springs if it has any [stress length^2]. */
+double spring_energy(const BoundaryCondition<2> &condition, const CellMap<2> &map,
+                     unsigned int face, const std::vector<EdgePoint> &delta);
 } // namespace hpvi
 
 #endif

@@ -44,8 +44,9 @@ public:
   /** Where its largest and least values over [0,1] can be: both ends and the zeros of its derivative. */
   std::vector<double> extremes() const;
 
+  EdgePolynomial derivative() const; ///< by s
+
 private:
-  EdgePolynomial derivative() const;
   double zero_between(double left, double right, double at_left, double at_right) const;
 
   std::vector<double> terms; ///< coefficients of P_i(2s - 1), P_i(1) = 1

@@ -29,11 +29,11 @@ public:
    * @p friction: l with `lam* = sum psi l`, psi the hat function that is 1 at the end; @p pressure: t with
    * `s_n = -sum t` on faces with unilateral contact, which are not asked for elsewhere. @p measured: the u_N from which
    * the distance is measured, and to which s is nearest inside cells; another one than that with which s is in balance.
-   * @p volume: how the discrete equations of the latter count changes of volume.
+   * @p volume: how the discrete equations of the latter count changes of volume. @p joints: tractions along all contacts instead.
    */
   EquilibratedStress(const Solution<2> &solution, const Parts &friction, const Parts &pressure,
                      EquilibrationCache &cache, const Solution<2> *measured = nullptr,
-                     Volume volume = Volume::full);
+                     Volume volume = Volume::full, const JointTractions *joints = nullptr);
 
   std::vector<double>
       squares; ///< `|s - sigma(u_N)|^2` in energy, by active cell index, s the symmetric part of rows
@@ -54,6 +54,9 @@ public:
   const BoundaryTractions &prescribed() const;
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
+
+  /** |tau - Pi tau| on a master's face in a joint. */
+  double missed_traction(unsigned int cell, unsigned int face) const;
 
   /** What the initial stress has beyond the polynomials of s, in complementary energy; rows count it in `squares`. */
   double missed_initial_stress(unsigned int cell) const;
@@ -87,6 +90,7 @@ private:
   void measure();
 
   EquilibrationCache &cache;
+  const JointTractions *const joints;
   const VertexPatches vertex_patches;
   const BoundaryTractions boundary;
   std::unique_ptr<const RowStresses> row_stresses;

@@ -86,6 +86,10 @@ public:
 
 private:
   struct AdmissibleStress;
+  struct Contact;
+
+  Contact contact_of(const Solution<2> &solution, const Discretisation<2> &discretisation,
+                     const AdmissibleStress &made);
 
   std::unique_ptr<const AdmissibleStress>
   stress_of_mixed_problem(const Solution<2> &solution, std::unique_ptr<LinearSolver> factor);

@@ -187,6 +187,7 @@ public:
   const RowTable &table;
   const RowValues values;
   const std::array<double, 4> scale; ///< RowShape::densities over h
+  std::array<double, 3> lengths;     ///< of the columns of N before they had length 1
 
   TractionEnergy energy() const;
 

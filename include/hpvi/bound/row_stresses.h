@@ -3,9 +3,11 @@
 #define hpvi_row_stresses_h
 
 #include <hpvi/bound/boundary_tractions.h>
+#include <hpvi/bound/cut_element.h>
 #include <hpvi/bound/patch_problem.h>
 #include <hpvi/bound/row_element.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,9 +17,13 @@ namespace hpvi
 class RowStresses
 {
 public:
-  /** @p cache must outlive this object, and its elements must stay as long as this is asked for stresses. */
+  /**
+   * @p cache must outlive this object, and its elements must stay as long as this is asked for stresses. @p joints: cells are cut where edges
+   * of the other body end.
+   */
   RowStresses(const Solution<2> &solution, const VertexPatches &patches,
-              const BoundaryTractions &boundary, EquilibrationCache &cache);
+              const BoundaryTractions &boundary, const JointTractions *joints,
+              EquilibrationCache &cache);
 
   /** Data of `psi sigma` with divergence `sigma grad psi - psi F`. */
   PatchCell patch_cell(unsigned int cell, unsigned int hat) const;
@@ -37,37 +43,77 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
+  /** |tau - Pi tau| on a master's face in a joint, zero on others. */
+  double missed_traction(unsigned int cell, unsigned int face) const;
+
 private:
-  struct Cell
+  class BeyondSpace;
+  /** All of a cell, or a box of it between cuts. */
+  struct Part
   {
+    unsigned int cell;
+    dealii::BoundingBox<2> box; ///< in reference coordinates of the cell
+    CellMap<2> map;
     const RowElement *element;
     double h;                       ///< of the element [length]
     std::vector<double> divergence; ///< (k+1)^2 of each row, of -F
     double missed_force = 0;
+    std::vector<double> tractions = {}; ///< that the slave exerts, in the order of TractionEnergy
+  };
+
+  struct Cell
+  {
+    std::vector<Part> parts;
+    unsigned int n_xi;                        ///< of them along xi
+    std::unique_ptr<const CutElement> joined; ///< of several parts
+    CutElement::Data data;                    ///< for that, without hats
+    double h;
     std::vector<double> gradients, defects; ///< by hat
   };
 
-  /** Of the four bilinear psi of a cell. */
+  /** Of the four bilinear psi of a cell in one part. */
   struct OfVertices
   {
     std::array<std::vector<double>, 4> divergence; ///< (k+1)^2 of each row
+    std::array<std::vector<double>, 4> tractions;  ///< that the slave exerts
     std::array<double, 4> moment{}; ///< that Lemma 4 of doc/bound.md adds [stress length^2]
+    std::array<std::vector<double>, 4> gradients;
+    std::array<std::array<double, 3>, 4> defects;
   };
 
-  RowShape shape_of(unsigned int cell) const;
+  /** psi and its slopes by reference coordinates. */
+  struct Hat
+  {
+    double value;
+    dealii::Tensor<1, 2> slope;
+  };
+
+  void cut(unsigned int cell);
+  const JointEdge *master(unsigned int cell, unsigned int face) const;
+  EquilibrationCache::Signature key(const Part &part) const;
+  RowShape shape_of(const Part &part) const;
+  Hat hat(const Part &part, unsigned int v, const dealii::Point<2> &at) const;
+  std::vector<dealii::SymmetricTensor<2, 2>> sigma(const Part &part, unsigned int n_gauss) const;
+  void add_stress(const Part &part, OfVertices &result) const;
+  void add_loads(Part &part, OfVertices &result);
+  template <class Load>
+  void add_load(const Part &part, const LoadRule<2> &rule, const Load &load,
+                const BeyondSpace *beyond, std::vector<double> *of_force, OfVertices &result) const;
+  void add_joints(const Part &part, OfVertices &result) const;
+  OfVertices data_of(Part &part);
   void set_cell(unsigned int cell);
-  void add_stress(unsigned int cell, OfVertices &result) const;
-  void add_loads(unsigned int cell, OfVertices &result);
-  std::vector<dealii::SymmetricTensor<2, 2>> sigma(unsigned int cell,
-                                                   const ShapeTable<2> &table) const;
-  void set_missed_force(unsigned int cell);
-  std::vector<dealii::SymmetricTensor<2, 2>> stress_at_points(unsigned int cell) const;
-  RowValues::Stress residual(unsigned int cell, const std::vector<double> &tractions,
+  void join_parts(unsigned int cell);
+  std::vector<dealii::SymmetricTensor<2, 2>> stress_at_points(const Part &part) const;
+  void set_missed_force(Part &part);
+  std::vector<std::vector<double>> tractions_of_parts(unsigned int cell,
+                                                      const std::vector<double> &tractions) const;
+  RowValues::Stress residual(const Part &part, const std::vector<double> &tractions,
                              RowFields &fields) const;
 
   const Solution<2> &solution;
   const VertexPatches &patches;
   const BoundaryTractions &boundary;
+  const JointTractions *const joints;
   EquilibrationCache &cache;
   std::vector<Cell> cells;
 };

@@ -3,7 +3,7 @@
 #define hpvi_vertex_patches_h
 
 #include <deal.II/base/array_view.h>
-#include <hpvi/plane/solution.h>
+#include <hpvi/bound/joint_tractions.h>
 
 #include <boost/container/static_vector.hpp>
 
@@ -60,7 +60,8 @@ struct StressEdge
       0; ///< of a parallelogram's sides: the shear in its frame is `S_xy = T_t - skew T_n`
   dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
   unsigned int contact_face = dealii::numbers::invalid_unsigned_int; ///< of ContactSpace::faces()
-  std::array<Component, 2> components;                               ///< orthogonal directions
+  bool is_given = false; ///< by JointTractions
+  std::array<Component, 2> components; ///< orthogonal directions
 
   bool at_boundary() const
   {
@@ -86,14 +87,17 @@ struct StressEdge
  * continuous, so that a hanging node has the mean of the ends of its edge. `sum_a psi_a = 1`, and the
  * patch of a is where psi_a does not vanish.
  *
- * Two bodies that touch have whole edges opposite to each other, unmatched_joint() says. Where they hand over an unknown traction
- * their vertices are one, psi_a is continuous from body to body, and so are patches.
+ * Two bodies that touch have whole edges opposite to each other. Where they hand over an unknown traction
+ * their vertices are one, psi_a is continuous from body to body, and so are patches. With JointTractions each body is for itself.
  */
 class VertexPatches
 {
 public:
-  /** For stresses by rows both parts are in P_{m-1}, and corners ask for nothing. */
-  VertexPatches(const Solution<2> &solution, bool has_rows);
+  /**
+   * For stresses by rows both parts are in P_{m-1}, and corners ask for nothing. @p joints: tractions along all contacts are given by
+   * these; null: they are not.
+   */
+  VertexPatches(const Solution<2> &solution, bool has_rows, const JointTractions *joints);
 
   VertexPatches(const VertexPatches &) = delete; // cells and patches refer to hats
   VertexPatches &operator=(const VertexPatches &) = delete;
@@ -142,7 +146,7 @@ public:
   const std::vector<Patch> &patches() const; ///< by vertex
 
 private:
-  void collect_edges(const Solution<2> &solution);
+  void collect_edges(const Solution<2> &solution, const JointTractions *joints);
   void join_vertices();
   void set_directions(const Scene<2> &scene, StressEdge &edge) const;
   void set_components(const Scene<2> &scene, StressEdge &edge) const;

@@ -48,6 +48,10 @@ std::string no_error_bound(const Scene<dim> &scene);
 template <int dim>
 std::string unmatched_joint(const ContactSpace<dim> &contact_space);
 
+/** Where such faces are curved, or at an angle to each other, so that tractions of one are no polynomials on the other, likewise. */
+template <int dim>
+std::string unbounded_joint(const ContactSpace<dim> &contact_space);
+
 /**
  * Where a bound is asked for, bisects cells of a mesh along joints until bodies match there, where each edge of one is a half, a
  * quarter, ... of an edge of the other, or the reverse. Where some edges never will nothing is done.

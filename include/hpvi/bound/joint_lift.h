@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_joint_lift_h
+#define hpvi_joint_lift_h
+
+#include <hpvi/bound/face_contact.h>
+#include <hpvi/bound/joint_tractions.h>
+#include <hpvi/bound/node_freedom.h>
+#include <hpvi/plane/discretisation.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hpvi
+{
+/**
+ * A displacement d that makes U = u_N + d admissible at every point of contacts whose meshes do not match: the jump [U] vanishes where
+ * bodies must not part, `[U]_n <= u_0` where contact is unilateral. Along the edges of one body, the softer one of each contact, d is a polynomial
+ * on each piece between vertices of either body: the jump is taken away in full where all points of the multiplier press,
+ * or stick; elsewhere d is linear, and as large as it takes. w, in V_N, has its values at the nodes of the edges and the least energy in
+ * the cells beside them; the rest goes into the cell of each edge by lift_energy().
+ */
+class JointLift
+{
+public:
+  JointLift(const Solution<2> &solution, const Discretisation<2> &discretisation,
+            const JointTractions &tractions);
+
+  std::vector<double> energies; ///< |w|_a^2 with springs by active cell index
+  double change = 0; ///< a(u_N, w) - L(w) + |w|_a^2/2
+  std::vector<double> cells; ///< |d - w|_{a,K} with the springs of its edges, likewise
+  std::vector<double> gaps;  ///< of u_N + d by contact face: gap() of ErrorBound [stress length^dim]
+  double work = 0; ///< -int tau . [d - w] + int g (|U_t| - |u_Nt|), of J(U) - J(u_N + w) what is known
+  std::string flaw; ///< why U is not admissible, in words; or empty
+
+private:
+  /** Components along normal and tangent of the slave's face. */
+  enum Mode
+  {
+    any,   ///< linear between its ends
+    below, ///< likewise, and more where `[U] <= u_0` asks for it
+    exact  ///< [U] = 0, or u_0
+  };
+  struct Piece
+  {
+    Piece(const JointPiece &place, const bool is_joint) : place(place), is_joint(is_joint)
+    {
+    }
+
+    JointPiece place;
+    bool is_joint; ///< else no body lies opposite to this part of a master
+    std::array<Mode, 2> modes{{any, any}};
+    std::array<EdgePolynomial, 2> jump; ///< [u_N] by normal and tangent along the piece, less u_0
+    std::array<EdgePolynomial, 2> change; ///< [d] likewise
+    std::array<std::array<double, 2>, 2> at_ends{}; ///< of [d]: end, component
+  };
+  struct Mover
+  {
+    const JointEdge *edge;
+    double sign; ///< of d in [d]
+    dealii::Tensor<1, 2> normal, tangent;
+    std::array<unsigned int, 2> vertices;
+    std::array<EdgePolynomial, 2> w; ///< its components along the edge
+    std::vector<Piece> pieces; ///< they fill the edge
+  };
+  /** `direction . d = value` at a vertex. */
+  struct Wish
+  {
+    dealii::Tensor<1, 2> direction;
+    double value;
+  };
+
+  void choose_movers();
+  Mover mover(const JointEdge &edge) const;
+  Piece piece(const JointPiece &place, const JointEdge &edge, double sign) const;
+  void set_vertices(const NodeFreedom &freedom);
+  void set_ends(Mover &mover) const;
+  void set_changes(Mover &mover);
+  void add_rest(const Mover &mover);
+  void set_w();
+  void set_nodes(Mover &mover, dealii::Vector<double> &u) const;
+  dealii::Tensor<1, 2> rest(const Mover &mover, const Piece &piece, double t) const;
+  void add_gaps(const Mover &mover, const Piece &piece);
+  void complain(const Piece &piece, double by);
+
+  const Solution<2> &solution;
+  const Discretisation<2> &discretisation;
+  const JointTractions &tractions;
+  const std::vector<Slip> slips;
+  std::vector<Mover> movers;
+  std::map<unsigned int, dealii::Tensor<1, 2>> at_vertices; ///< d
+  double size = 0; ///< of displacements
+};
+} // namespace hpvi
+
+#endif

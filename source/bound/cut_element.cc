@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/bound/cut_element.h>
+#include <hpvi/bound/legendre.h>
+
+#include <cmath>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Coefficients on [begin, end] of a polynomial on [0,1] by those there. */
+FullMatrix<double> restriction(const unsigned int n, const double begin, const double end)
+{
+  FullMatrix<double> result(n, n);
+  const QGauss<1> gauss(n);
+  for (unsigned int q = 0; q < n; ++q)
+  {
+    const double s = gauss.point(q)[0];
+    const std::vector<double> own = legendre::values(n, 2 * s - 1),
+                              whole = legendre::values(n, 2 * (begin + s * (end - begin)) - 1);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        result(i, j) += 2 * gauss.weight(q) * own[i] * whole[j];
+  }
+  return result;
+}
+} // namespace
+
+CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, const double h,
+                       const Point<2> &centre)
+    : parts(parts), h(h), centre(centre), k(parts[0].element->table.k)
+{
+  set_places(n_xi);
+  const unsigned int m = n_faces(), n_inner = n - m, n_conditions = 3 * (parts.size() - 1),
+                     size = n_inner + n_conditions;
+  A.reinit(n, n);
+  C.reinit(n_conditions, n);
+  N.resize(3 * m);
+  for (unsigned int box = 0; box < parts.size(); ++box)
+    add_box(box);
+  std::vector<double> matrix(size * size);
+  for (unsigned int i = 0; i < n_inner; ++i)
+  {
+    for (unsigned int j = 0; j < n_inner; ++j)
+      matrix[j * size + i] = A(m + i, m + j);
+    for (unsigned int c = 0; c < n_conditions; ++c)
+      matrix[(n_inner + c) * size + i] = matrix[i * size + n_inner + c] = C(c, m + i);
+  }
+  factor = std::make_unique<const LuFactor>(std::move(matrix), size);
+  if (factor->is_singular())
+    throw NumericalFailure("round-off spoils the rows of stresses in cells that are cut");
+  best.reinit(n, m);
+  std::vector<double> x(size);
+  for (unsigned int j = 0; j < m; ++j)
+  {
+    for (unsigned int i = 0; i < n_inner; ++i)
+      x[i] = -A(m + i, j);
+    for (unsigned int c = 0; c < n_conditions; ++c)
+      x[n_inner + c] = -C(c, j);
+    factor->solve(x);
+    best(j, j) = 1.;
+    for (unsigned int i = 0; i < n_inner; ++i)
+      best(m + i, j) = x[i];
+  }
+  FullMatrix<double> half(n, m), reduced(m, m);
+  A.mmult(half, best);
+  best.Tmmult(reduced, half);
+  for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int i = 0; i < m; ++i)
+      G.push_back((reduced(i, j) + reduced(j, i)) / 2);
+  for (unsigned int z = 0; z < 3; ++z) // length 1, as those of other elements
+  {
+    double square = 0;
+    for (unsigned int i = 0; i < m; ++i)
+      square += N[z * m + i] * N[z * m + i];
+    for (unsigned int i = 0; i < m; ++i)
+      N[z * m + i] /= std::sqrt(square);
+    for (FullMatrix<double> &condition : conditions)
+      for (unsigned int c = 0; c < 3; ++c)
+        condition(z, c) /= std::sqrt(square);
+  }
+}
+
+/** Which tractions each box has: parts of those on faces of the cell, and those between it and its neighbours. */
+void CutElement::set_places(const unsigned int n_xi)
+{
+  const unsigned int n_eta = parts.size() / n_xi, one = 2 * (k + 1);
+  n = n_faces() + one * ((n_xi - 1) * n_eta + n_xi * (n_eta - 1));
+  for (unsigned int box = 0; box < parts.size(); ++box)
+  {
+    const unsigned int x = box % n_xi, y = box / n_xi;
+    FullMatrix<double> &own = to.emplace_back(n_faces(), n);
+    for (unsigned int face = 0; face < 4; ++face)
+    {
+      const unsigned int along = 1 - face / 2, at = face < 2 ? x : y,
+                         last = (face < 2 ? n_xi : n_eta) - 1;
+      const auto &[low, high] = parts[box].box.get_boundary_points();
+      const bool is_outer = face % 2 ? at == last : at == 0;
+      const FullMatrix<double> part =
+          is_outer ? restriction(k + 1, low[along], high[along]) : FullMatrix<double>(IdentityMatrix(k + 1));
+      unsigned int first = face * one;
+      if (!is_outer && face < 2)
+        first = n_faces() + one * (y * (n_xi - 1) + x - 1 + face % 2);
+      else if (!is_outer)
+        first = n_faces() + one * ((n_xi - 1) * n_eta + (y - 1 + face % 2) * n_xi + x);
+      for (unsigned int row = 0; row < 2; ++row)
+        own.fill(part, face * one + row * (k + 1), first + row * (k + 1));
+    }
+  }
+}
+
+/** Adds its energy and conditions to those of the cell. */
+void CutElement::add_box(const unsigned int box)
+{
+  const Part &part = parts[box];
+  const unsigned int m = n_faces();
+  const TractionEnergy own = part.element->energy();
+  FullMatrix<double> half(m, n), of_motions(3, n);
+  const double scale = part.h * part.h / (h * h);
+  for (unsigned int i = 0; i < m; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int l = 0; l < m; ++l)
+        half(i, j) += scale * own.G.entries[std::size_t(l) * own.G.stride + i] * to[box](l, j);
+  to[box].Tmmult(A, half, /*adding=*/true);
+  for (unsigned int z = 0; z < 3; ++z)
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int l = 0; l < m; ++l)
+        of_motions(z, j) += own.N.entries[std::size_t(z) * own.N.stride + l] * to[box](l, j);
+  if (box + 1 < parts.size())
+    C.fill(of_motions, 3 * box, 0);
+  // Forces and the moment about the middle of the cell, in units of its h.
+  const std::array<double, 3> &lengths = part.element->lengths;
+  const double ratio = part.h / h;
+  const Tensor<1, 2> arm = (part.centre - centre) / h;
+  FullMatrix<double> &of_cell = conditions.emplace_back(3, 3);
+  for (unsigned int c = 0; c < 2; ++c)
+    of_cell(c, c) = ratio * lengths[c];
+  of_cell(2, 0) = -arm[1] * ratio * lengths[0];
+  of_cell(2, 1) = arm[0] * ratio * lengths[1];
+  of_cell(2, 2) = ratio * ratio * lengths[2];
+  for (unsigned int z = 0; z < 3; ++z)
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int i = 0; i < m; ++i)
+        N[z * m + i] += of_cell(z, c) * of_motions(c, i);
+}
+
+TractionEnergy CutElement::energy() const
+{
+  return {k + 1, k + 1, RowElement::n_conditions, {G.data(), n_faces()}, {N.data(), n_faces()}};
+}
+
+/** All tractions where those on faces vanish. */
+std::vector<double> CutElement::inner(const Data &data) const
+{
+  const unsigned int m = n_faces(), n_inner = n - m;
+  std::vector<double> x(n_inner + C.m()), result(n);
+  for (unsigned int box = 0; box < parts.size(); ++box)
+  {
+    const double scale = parts[box].h * parts[box].h / (h * h);
+    for (unsigned int i = 0; i < n_inner; ++i)
+      for (unsigned int l = 0; l < m; ++l)
+        x[i] -= scale * to[box](l, m + i) * data.gradients[box][l];
+    for (unsigned int c = 0; box + 1 < parts.size() && c < 3; ++c)
+      x[n_inner + 3 * box + c] = -data.defects[box][c];
+  }
+  factor->solve(x);
+  std::copy(x.begin(), x.begin() + n_inner, result.begin() + m);
+  return result;
+}
+
+std::vector<double> CutElement::gradient(const Data &data) const
+{
+  const std::vector<double> at = inner(data);
+  std::vector<double> of_all(n), result(n_faces());
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    for (unsigned int j = n_faces(); j < n; ++j)
+      of_all[i] += A(i, j) * at[j];
+    for (unsigned int box = 0; box < parts.size(); ++box)
+      for (unsigned int l = 0; l < n_faces(); ++l)
+        of_all[i] +=
+            parts[box].h * parts[box].h / (h * h) * to[box](l, i) * data.gradients[box][l];
+  }
+  for (unsigned int j = 0; j < n_faces(); ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      result[j] += best(i, j) * of_all[i];
+  return result;
+}
+
+std::array<double, 3> CutElement::defect(const Data &data) const
+{
+  std::array<double, 3> result{};
+  for (unsigned int box = 0; box < parts.size(); ++box)
+    for (unsigned int z = 0; z < 3; ++z)
+      for (unsigned int c = 0; c < 3; ++c)
+        result[z] += conditions[box](z, c) * data.defects[box][c];
+  return result;
+}
+
+std::vector<std::vector<double>> CutElement::tractions(const std::vector<double> &faces,
+                                                       const Data &data) const
+{
+  std::vector<double> all = inner(data);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n_faces(); ++j)
+      all[i] += best(i, j) * faces[j];
+  std::vector<std::vector<double>> result;
+  for (const FullMatrix<double> &of_box : to)
+  {
+    std::vector<double> &own = result.emplace_back(n_faces());
+    for (unsigned int l = 0; l < own.size(); ++l)
+      for (unsigned int i = 0; i < n; ++i)
+        own[l] += of_box(l, i) * all[i];
+  }
+  return result;
+}
+} // namespace hpvi
