@@ -328,5 +328,5 @@ std::vector<double> energies_by_cell(const Solution<dim> &solution,
 
 template class CorrectionSearch<2>;
 template std::vector<double> energies_by_cell(const Solution<2> &, const Discretisation<2> &,
-                                             const Vector<double> &);
+                                              const Vector<double> &);
 } // namespace hpvi

@@ -10,26 +10,6 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-/** Coefficients on [begin, end] of a polynomial on [0,1] by those there. */
-FullMatrix<double> restriction(const unsigned int n, const double begin, const double end)
-{
-  FullMatrix<double> result(n, n);
-  const QGauss<1> gauss(n);
-  for (unsigned int q = 0; q < n; ++q)
-  {
-    const double s = gauss.point(q)[0];
-    const std::vector<double> own = legendre::values(n, 2 * s - 1),
-                              whole = legendre::values(n, 2 * (begin + s * (end - begin)) - 1);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        result(i, j) += 2 * gauss.weight(q) * own[i] * whole[j];
-  }
-  return result;
-}
-} // namespace
-
 CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, const double h,
                        const Point<2> &centre)
     : parts(parts), h(h), centre(centre), k(parts[0].element->table.k)
@@ -100,8 +80,9 @@ void CutElement::set_places(const unsigned int n_xi)
                          last = (face < 2 ? n_xi : n_eta) - 1;
       const auto &[low, high] = parts[box].box.get_boundary_points();
       const bool is_outer = face % 2 ? at == last : at == 0;
-      const FullMatrix<double> part =
-          is_outer ? restriction(k + 1, low[along], high[along]) : FullMatrix<double>(IdentityMatrix(k + 1));
+      const FullMatrix<double> part = is_outer
+                                          ? legendre::restriction(k + 1, low[along], high[along])
+                                          : FullMatrix<double>(IdentityMatrix(k + 1));
       unsigned int first = face * one;
       if (!is_outer && face < 2)
         first = n_faces() + one * (y * (n_xi - 1) + x - 1 + face % 2);
@@ -182,8 +163,7 @@ std::vector<double> CutElement::gradient(const Data &data) const
       of_all[i] += A(i, j) * at[j];
     for (unsigned int box = 0; box < parts.size(); ++box)
       for (unsigned int l = 0; l < n_faces(); ++l)
-        of_all[i] +=
-            parts[box].h * parts[box].h / (h * h) * to[box](l, i) * data.gradients[box][l];
+        of_all[i] += parts[box].h * parts[box].h / (h * h) * to[box](l, i) * data.gradients[box][l];
   }
   for (unsigned int j = 0; j < n_faces(); ++j)
     for (unsigned int i = 0; i < n; ++i)

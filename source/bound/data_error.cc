@@ -58,6 +58,14 @@ double unresolved_loads(const Solution<2> &solution, const EquilibratedStress &s
                               .energy_product);
 }
 
+/** Along unilateral contact; between two bodies it is the slave's. */
+bool has_gap(const Solution<2> &solution, const StressEdge &edge)
+{
+  const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
+  return condition.is_unilateral() && condition.gap &&
+         edge.contact_face != numbers::invalid_unsigned_int;
+}
+
 /** One component of u_D, or of u_0 n along unilateral contact, at s in [0,1] of an edge; none: neither. */
 std::function<double(double)> prescribed_value(const Solution<2> &solution, const StressEdge &edge,
                                                const CellMap<2> &map, const unsigned int component)
@@ -66,7 +74,7 @@ std::function<double(double)> prescribed_value(const Solution<2> &solution, cons
   if (const auto &u_D = condition.displacement[component])
     return [&u_D, &map, face = edge.sides[0].face](const double s)
     { return u_D->value(map.point(point_on_face<2>(face, Point<1>(s)))); };
-  if (!condition.is_unilateral() || !condition.gap)
+  if (!has_gap(solution, edge))
     return {};
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
   return [&face, n = face.frame(0.5).normal[component]](const double s)
@@ -238,7 +246,7 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     if (stress.has_rows())
       oscillation[cell] += CellConstants(map_of<2>(patches.cells()[cell].iterator)).trace(face) *
                            stress.missed_traction(cell, face);
-    if (condition.has_displacement() || (condition.is_unilateral() && condition.gap))
+    if (condition.has_displacement() || has_gap(solution, edge))
     {
       const Missed missed = missed_displacement(solution, stress, e);
       // two edges of a cell: the triangle inequality
@@ -248,8 +256,7 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
         lifts[cell] += std::sqrt(std::max(
             0., lift_energy(map, face, part, HookesLaw<2>(solution.scene.material_of(iterator)),
                             solution.tables) +
-                    spring_energy(condition, map, face,
-                                  edge_points(part, 6, solution.tables))));
+                    spring_energy(condition, map, face, edge_points(part, 6, solution.tables))));
       lift_work += boundary_work(solution, stress, e, missed);
       const double most = std::max(missed.missed_data[0], missed.missed_data[1]);
       missed_work += most * absolute_traction(stress, e);

@@ -282,9 +282,9 @@ double spring_energy(const BoundaryCondition<2> &condition, const CellMap<2> &ma
     if (condition.spring)
     {
       const Point<2> xi = point_on_face<2>(face, Point<1>(at.s));
-      sum += at.weight * map.face_measure(face, xi) *
-             (at.value *
-              (condition.spring.stiffness(map.point(xi), map.normal(face, xi)) * at.value));
+      sum +=
+          at.weight * map.face_measure(face, xi) *
+          (at.value * (condition.spring.stiffness(map.point(xi), map.normal(face, xi)) * at.value));
     }
   return sum;
 }

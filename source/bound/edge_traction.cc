@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/bound/edge_traction.h>
 
+#include <hpvi/bound/legendre.h>
+
 #include <algorithm>
 
 namespace hpvi
@@ -22,6 +24,29 @@ unsigned int EdgeTraction::n_coefficients() const
 {
   return std::max(components[0].size(), components[1].size());
 }
+
+namespace
+{
+/** What there is on all of an edge, on a part of it where the slave of a joint exerts more. */
+EdgeTraction on_part(const EdgeTraction &whole, const RowStresses::JointPart &part,
+                     const double sign)
+{
+  EdgeTraction result(whole);
+  result.begin = whole.point(part.begin);
+  result.end = whole.point(part.end);
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    std::vector<double> &own = result.components[c];
+    const unsigned int n = std::max(own.size(), part.components[c].size());
+    own.resize(n);
+    Vector<double> all(own.begin(), own.end()), restricted(n);
+    legendre::restriction(n, part.begin, part.end).vmult(restricted, all);
+    for (unsigned int i = 0; i < n; ++i)
+      own[i] = restricted[i] + (i < part.components[c].size() ? sign * part.components[c][i] : 0.);
+  }
+  return result;
+}
+} // namespace
 
 // Tractions of edges point towards growing reference coordinates of their first cell.
 std::vector<EdgeTraction> edge_tractions(const EquilibratedStress &stress)
@@ -54,7 +79,11 @@ std::vector<EdgeTraction> edge_tractions(const EquilibratedStress &stress)
             traction.components[c][i] +=
                 sign * edge.components[d].direction[c] * stress.tractions()[e][d][i];
       }
-      result.push_back(std::move(traction));
+      const auto parts = stress.joint_parts(edge.sides[k].cell, face);
+      for (const RowStresses::JointPart &part : parts)
+        result.push_back(on_part(traction, part, sign));
+      if (parts.empty())
+        result.push_back(std::move(traction));
     }
   }
   return result;

@@ -126,6 +126,13 @@ double EquilibratedStress::missed_force(const unsigned int cell) const
   return row_stresses ? row_stresses->missed_force(cell) : plain_stresses->missed_force(cell);
 }
 
+std::vector<RowStresses::JointPart> EquilibratedStress::joint_parts(const unsigned int cell,
+                                                                    const unsigned int face) const
+{
+  return row_stresses ? row_stresses->joint_parts(cell, face)
+                      : std::vector<RowStresses::JointPart>();
+}
+
 double EquilibratedStress::missed_traction(const unsigned int cell, const unsigned int face) const
 {
   return row_stresses ? row_stresses->missed_traction(cell, face) : 0.;
@@ -308,7 +315,8 @@ void EquilibratedStress::measure()
 void EquilibratedStress::measure_from(const Solution<2> &other)
 {
   if (row_stresses)
-    row_stresses = std::make_unique<const RowStresses>(other, vertex_patches, boundary, joints, cache);
+    row_stresses =
+        std::make_unique<const RowStresses>(other, vertex_patches, boundary, joints, cache);
   else
     plain_stresses->measure_from(other);
 }

@@ -90,8 +90,7 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
   result.lifted = data.lifts;
   const auto &faces = solution.contact_space.faces();
   for (unsigned int face = 0; face < faces.size(); ++face)
-    result.squares[faces[face].cell->active_cell_index()] +=
-        2 * std::max(0., contact.gaps[face]);
+    result.squares[faces[face].cell->active_cell_index()] += 2 * std::max(0., contact.gaps[face]);
 }
 
 // @sect3{In the energy norm}
@@ -99,8 +98,8 @@ void set_squares(ErrorBound &result, const Solution<2> &solution, const Equilibr
 // For each $\lambda$ in $(0, 1]$ the error e satisfies $|e|^2 \le A^2 + 2\lambda\,\mathrm{gap} +
 // ((1 - \lambda)|e| + \lambda b)^2$ with $A^2 = \sum_K (\eta_K + O_K)^2$, and so it is below the larger root.
 // $\lambda = 1$ gives $(A^2 + 2\,\mathrm{gap} + b^2)^{1/2}$, the least where $w$ counts.
-void set_norms(ErrorBound &result, const EquilibratedStress &stress,
-               const ContactError &contact, const DataError &data)
+void set_norms(ErrorBound &result, const EquilibratedStress &stress, const ContactError &contact,
+               const DataError &data)
 {
   const double w = norm(contact), gap = std::max(0., sum(contact.gaps)); // round-off
   result.stress = std::sqrt(sum(stress.squares));
@@ -124,8 +123,8 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress,
 }
 
 /** Of the stress between sigma(u_N) and s that is nearest to that of the solution; doc/bound.md has the proof. */
-void set_radius(ErrorBound &result, const EquilibratedStress &stress,
-                const ContactError &contact, const DataError &data)
+void set_radius(ErrorBound &result, const EquilibratedStress &stress, const ContactError &contact,
+                const DataError &data)
 {
   const double A = stress_and_oscillation(stress, data), gap = std::max(0., sum(contact.gaps)),
                b = distance_from_admissible(contact, data);
@@ -146,8 +145,7 @@ void set_energy(ErrorBound &result, const EquilibratedStress &stress, const Cont
                 const double change, const DataError &data)
 {
   const double w = norm(contact), b = distance_from_admissible(contact, data);
-  result.energy =
-      std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + sum(contact.gaps);
+  result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + sum(contact.gaps);
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift + data.missed_work;
@@ -250,12 +248,10 @@ std::optional<JointTractions> joints_of(const Solution<2> &solution,
   return result;
 }
 
-std::optional<Solution<2>> moved(const Solution<2> &solution,
-                                 const Discretisation<2> &discretisation,
-                                 const AdmissibleFriction<2> &friction,
-                                 const AdmissiblePressure<2> &pressure,
-                                 const std::optional<JointTractions> &joints,
-                           const LinearSolver *const factor)
+std::optional<Solution<2>>
+moved(const Solution<2> &solution, const Discretisation<2> &discretisation,
+      const AdmissibleFriction<2> &friction, const AdmissiblePressure<2> &pressure,
+      const std::optional<JointTractions> &joints, const LinearSolver *const factor)
 {
   if (!joints && friction.imbalance() <= tolerable && pressure.is_balanced())
     return std::nullopt;
@@ -426,7 +422,9 @@ try
   if (made->joints)
   {
     joints.emplace(solution, discretisation, *made->joints);
-    contact = {{joints->energies, joints->gaps}, {joints->energies, joints->gaps}, joints->change,
+    contact = {{joints->energies, joints->gaps},
+               {joints->energies, joints->gaps},
+               joints->change,
                joints->flaw};
   }
   parallel_for_each(joints ? 1 : 2, 1,

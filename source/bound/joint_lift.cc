@@ -55,8 +55,8 @@ JointLift::JointLift(const Solution<2> &solution, const Discretisation<2> &discr
                      const JointTractions &tractions)
     : cells(solution.displacement_space.degrees().size()),
       gaps(solution.contact_space.faces().size()), solution(solution),
-      discretisation(discretisation), tractions(tractions),
-      slips(slips_of(solution)), size(solution.u.linfty_norm())
+      discretisation(discretisation), tractions(tractions), slips(slips_of(solution)),
+      size(solution.u.linfty_norm())
 {
   choose_movers();
   set_vertices(NodeFreedom(solution, discretisation.unknowns));
@@ -102,16 +102,19 @@ JointLift::Mover JointLift::mover(const JointEdge &edge) const
 {
   const ContactFrame<2> frame = solution.contact_space.faces()[edge.pieces[0].face].frame(0.5);
   const auto face = edge.cell->face(edge.face_no);
-  Mover result{&edge,         edge.is_slave ? 1. : -1.,
-               frame.normal,  frame.tangent,
+  Mover result{&edge,
+               edge.is_slave ? 1. : -1.,
+               frame.normal,
+               frame.tangent,
                {{face->vertex_index(0), face->vertex_index(1)}},
-               {},            {}};
+               {},
+               {}};
   const auto add_void = [&](const double begin, const double end)
   {
     if (end - begin > 1e-9)
-      result.pieces.push_back(Piece({begin, end, edge.pieces[0].face, 0., 1., edge.cell, edge.face_no,
-                                     0., 1., false},
-                                    /*is_joint=*/false));
+      result.pieces.push_back(
+          Piece({begin, end, edge.pieces[0].face, 0., 1., edge.cell, edge.face_no, 0., 1., false},
+                /*is_joint=*/false));
   };
   double end = 0;
   for (const JointPiece &place : edge.pieces)
@@ -141,8 +144,8 @@ JointLift::Piece JointLift::piece(const JointPiece &place, const JointEdge &edge
     result.modes[1] = exact;
   unsigned int degree = solution.displacement_space.degrees()[edge.cell->active_cell_index()];
   if (place.has_other)
-    degree = std::max(degree,
-                      solution.displacement_space.degrees()[place.other->active_cell_index()]);
+    degree =
+        std::max(degree, solution.displacement_space.degrees()[place.other->active_cell_index()]);
   const ContactFrame<2> frame = face.frame(0.5);
   const LegendreTables legendre;
   const EdgePolynomial u_0 = law.is_unilateral() && law.gap
@@ -177,8 +180,7 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
     for (const unsigned int end : {0, 1})
     {
       const Piece &piece = end == 0 ? mover.pieces.front() : mover.pieces.back();
-      const unsigned int vertex = mover.vertices[end],
-                         cell = mover.edge->cell->active_cell_index(),
+      const unsigned int vertex = mover.vertices[end], cell = mover.edge->cell->active_cell_index(),
                          p = solution.displacement_space.degrees()[cell];
       const auto dofs = solution.displacement_space.cell_dofs(cell);
       const std::vector<unsigned int> &on_edge =
@@ -189,8 +191,7 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
       {
         const double value = piece.jump[c](end);
         if (piece.modes[c] == exact || (piece.modes[c] == below && value > 0.))
-          wishes[vertex].push_back(
-              {mover.sign * (c == 0 ? mover.normal : mover.tangent), -value});
+          wishes[vertex].push_back({mover.sign * (c == 0 ? mover.normal : mover.tangent), -value});
       }
     }
   for (const auto &[vertex, all] : wishes)
@@ -198,15 +199,15 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
     Tensor<1, 2> &d = at_vertices[vertex];
     const NodeFreedom::Node &node = nodes[vertex];
     const Tensor<1, 2> only = freedom.only_direction(node);
-    const bool is_held = freedom.is_on_plate(node) ||
-                         (freedom.is_held(node, Tensor<1, 2>({1., 0.})) &&
-                          freedom.is_held(node, Tensor<1, 2>({0., 1.})));
+    const bool is_held =
+        freedom.is_on_plate(node) || (freedom.is_held(node, Tensor<1, 2>({1., 0.})) &&
+                                      freedom.is_held(node, Tensor<1, 2>({0., 1.})));
     Tensor<2, 2> M;
     Tensor<1, 2> r;
     for (const Wish &wish : all)
     {
-      const Tensor<1, 2> a = only.norm_square() > 0. ? Tensor<1, 2>((wish.direction * only) * only)
-                                                     : wish.direction;
+      const Tensor<1, 2> a =
+          only.norm_square() > 0. ? Tensor<1, 2>((wish.direction * only) * only) : wish.direction;
       M += outer_product(a, a);
       r += wish.value * a;
     }
@@ -248,8 +249,7 @@ void JointLift::complain(const Piece &piece, const double by)
 {
   if (flaw.empty())
     flaw = "two bodies part or pass through one another near " +
-           to_string(solution.contact_space.faces()[piece.place.face].point(
-               piece.place.at_begin)) +
+           to_string(solution.contact_space.faces()[piece.place.face].point(piece.place.at_begin)) +
            ", by " + hpvi::text(by / size, 2) +
            " of the largest displacement, and what holds the softer one there keeps it so";
 }
@@ -293,8 +293,7 @@ void JointLift::set_nodes(Mover &mover, Vector<double> &u) const
   const unsigned int cell = mover.edge->cell->active_cell_index(),
                      p = solution.displacement_space.degrees()[cell];
   const auto dofs = solution.displacement_space.cell_dofs(cell);
-  const std::vector<unsigned int> &on_edge =
-      solution.tables.numbering(p).edge[mover.edge->face_no];
+  const std::vector<unsigned int> &on_edge = solution.tables.numbering(p).edge[mover.edge->face_no];
   const QGaussLobatto<1> &nodes = solution.tables.gauss_lobatto(p + 1);
   const LegendreTables legendre;
   Vector<double> values(p + 1), coefficients(p + 1);
@@ -306,8 +305,8 @@ void JointLift::set_nodes(Mover &mover, Vector<double> &u) const
       const auto at = std::find_if(mover.pieces.begin(), mover.pieces.end() - 1,
                                    [s](const Piece &piece) { return s <= piece.place.end; });
       const double t = (s - at->place.begin) / (at->place.end - at->place.begin);
-      values[j] = mover.sign * (at->change[0](t) * mover.normal[c] +
-                                at->change[1](t) * mover.tangent[c]);
+      values[j] =
+          mover.sign * (at->change[0](t) * mover.normal[c] + at->change[1](t) * mover.tangent[c]);
       u[dofs[on_edge[c * (p + 1) + j]]] = values[j];
     }
     legendre.from_nodes(p).vmult(coefficients, values);
@@ -330,7 +329,8 @@ void JointLift::set_w()
   std::vector<bool> is_free(discretisation.system.A.n()), is_fixed(is_free);
   for (const auto &cell : space.dof_handler().active_cell_iterators())
     if (std::any_of(cell->vertex_indices().begin(), cell->vertex_indices().end(),
-                    [&](const unsigned int v) { return vertices.count(cell->vertex_index(v)) > 0; }))
+                    [&](const unsigned int v)
+                    { return vertices.count(cell->vertex_index(v)) > 0; }))
       for (const auto dof : space.cell_dofs(cell->active_cell_index()))
         for (const auto &[unknown, weight] : unknowns.terms(dof))
           is_free[unknown] = true;
@@ -351,8 +351,8 @@ void JointLift::set_w()
   const BorderedMatrix A{discretisation.system.A, {}};
   const Vector<double> w = RestrictedEnergy(A, is_free, fixed, {}).minimiser();
   energies = energies_by_cell(solution, discretisation, w);
-  change = A.energy(w) / 2 -
-           solution.z * solution.spaces->contact_operator.moments(unknowns.expand(w));
+  change =
+      A.energy(w) / 2 - solution.z * solution.spaces->contact_operator.moments(unknowns.expand(w));
 }
 
 /** d - w at t of a piece. */
@@ -368,16 +368,17 @@ void JointLift::add_rest(const Mover &mover)
 {
   std::vector<EdgePoint> points;
   double largest = 0;
-  const std::array<EdgePolynomial, 2> slopes_of_w{{mover.w[0].derivative(), mover.w[1].derivative()}};
+  const std::array<EdgePolynomial, 2> slopes_of_w{
+      {mover.w[0].derivative(), mover.w[1].derivative()}};
   for (const Piece &piece : mover.pieces)
   {
     const std::array<EdgePolynomial, 2> slopes{
         {piece.change[0].derivative(), piece.change[1].derivative()}};
     const double length = piece.place.end - piece.place.begin;
-    const unsigned int n = std::max({piece.change[0].coefficients().size(),
-                                     piece.change[1].coefficients().size(),
-                                     mover.w[0].coefficients().size()}) +
-                           4;
+    const unsigned int n =
+        std::max({piece.change[0].coefficients().size(), piece.change[1].coefficients().size(),
+                  mover.w[0].coefficients().size()}) +
+        4;
     for (unsigned int q = 0; q < n; ++q)
     {
       const double t = solution.tables.gauss(n).point(q)[0], s = piece.place.begin + t * length;
@@ -432,7 +433,8 @@ void JointLift::add_gaps(const Mover &mover, const Piece &piece)
         gaps[piece.place.face] -= ds * tractions.pressure(piece.place.face, s) * open(t);
       if (!has_friction)
         continue;
-      const double g = face.friction_bound(face.point(s)), U_t = piece.modes[1] == exact ? 0. : left(t);
+      const double g = face.friction_bound(face.point(s)),
+                   U_t = piece.modes[1] == exact ? 0. : left(t);
       gaps[piece.place.face] += ds * (g * std::abs(U_t) - (tau * mover.tangent) * U_t);
       work += ds * g * (std::abs(U_t) - std::abs(u_t(t)));
     }

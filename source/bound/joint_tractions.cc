@@ -26,20 +26,19 @@ std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
   std::map<std::pair<unsigned int, unsigned int>, JointEdge> masters;
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
-    JointEdge &slave =
-        slaves.emplace_back(JointEdge{faces[k].cell, faces[k].face_no, true, {}});
+    JointEdge &slave = slaves.emplace_back(JointEdge{faces[k].cell, faces[k].face_no, true, {}});
     for (const ContactSegment<2> &segment : faces[k].segments)
     {
       slave.pieces.push_back({segment.begin, segment.end, k, segment.begin, segment.end,
                               segment.cell, segment.face_no, segment.at_begin, segment.at_end,
                               true});
-      JointEdge &master =
-          masters
-              .try_emplace({segment.cell->active_cell_index(), segment.face_no},
-                           JointEdge{segment.cell, segment.face_no, false, {}})
-              .first->second;
-      JointPiece piece{segment.at_begin, segment.at_end, k, segment.begin, segment.end,
-                       faces[k].cell, faces[k].face_no, segment.begin, segment.end, true};
+      JointEdge &master = masters
+                              .try_emplace({segment.cell->active_cell_index(), segment.face_no},
+                                           JointEdge{segment.cell, segment.face_no, false, {}})
+                              .first->second;
+      JointPiece piece{
+          segment.at_begin, segment.at_end, k,           segment.begin, segment.end, faces[k].cell,
+          faces[k].face_no, segment.begin,  segment.end, true};
       if (piece.begin > piece.end)
       {
         std::swap(piece.begin, piece.end);
@@ -49,8 +48,7 @@ std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
       master.pieces.push_back(piece);
     }
     if (slave.pieces.empty())
-      slave.pieces.push_back(
-          {0., 1., k, 0., 1., faces[k].cell, faces[k].face_no, 0., 1., false});
+      slave.pieces.push_back({0., 1., k, 0., 1., faces[k].cell, faces[k].face_no, 0., 1., false});
   }
   for (auto &[place, master] : masters)
   {
@@ -74,8 +72,8 @@ SymmetricTensor<2, 2> stress_at(const Solution<2> &solution,
       tabulate<2>(solution.displacement_space.degrees()[index], {reference}, {1.}, false);
   const std::vector<double> slopes = evaluate(table.derivatives, solution.coefficients(index));
   const HookesLaw<2> law(solution.scene.material_of(cell));
-  SymmetricTensor<2, 2> result =
-      law.stress(physical_gradient<2>(slopes, 0, table.derivatives.m(), invert(map.jacobian(reference))));
+  SymmetricTensor<2, 2> result = law.stress(
+      physical_gradient<2>(slopes, 0, table.derivatives.m(), invert(map.jacobian(reference))));
   if (solution.scene.has_initial_strain())
     result -= law.stress(solution.scene.initial_strain_in(cell, map.point(reference)));
   return result;
@@ -241,9 +239,9 @@ void JointTractions::balance_moments()
       if (is_open)
         continue;
       const double run = along(end, first);
-      missing += run * faces[end].length *
-                 (first_moment(discrete_pressure(faces[end], solution)) -
-                  first_moment(parts[end][0]));
+      missing +=
+          run * faces[end].length *
+          (first_moment(discrete_pressure(faces[end], solution)) - first_moment(parts[end][0]));
       lengths += run * run * faces[end].length;
     }
     for (unsigned int k = first; !is_open && k < end; ++k)
@@ -253,8 +251,7 @@ void JointTractions::balance_moments()
 
 Vector<double> JointTractions::missing_forces() const
 {
-  Vector<double> result =
-      solution.spaces->contact_operator.forces(solution.z);
+  Vector<double> result = solution.spaces->contact_operator.forces(solution.z);
   for (const JointEdge &edge : all)
   {
     const unsigned int cell = edge.cell->active_cell_index(),
@@ -270,8 +267,8 @@ Vector<double> JointTractions::missing_forces() const
                             std::abs(piece.at_end - piece.at_begin);
       for (const auto &[s, weight] : points(piece, p))
       {
-        const Tensor<1, 2> force = (edge.is_slave ? -1. : 1.) * length * weight *
-                                   value(piece.face, piece.on_slave(s));
+        const Tensor<1, 2> force =
+            (edge.is_slave ? -1. : 1.) * length * weight * value(piece.face, piece.on_slave(s));
         const std::vector<double> phi = lagrange_basis(nodes, s);
         for (unsigned int c = 0; c < 2; ++c)
           for (unsigned int j = 0; j < n; ++j)

@@ -51,6 +51,22 @@ double legendre::shift(const unsigned int i)
   return i == 0 ? 0. : i / (root(i) * root(i - 1));
 }
 
+FullMatrix<double> legendre::restriction(const unsigned int n, const double begin, const double end)
+{
+  FullMatrix<double> result(n, n);
+  const QGauss<1> gauss(n);
+  for (unsigned int q = 0; q < n; ++q)
+  {
+    const double s = gauss.point(q)[0];
+    const std::vector<double> own = values(n, 2 * s - 1),
+                              whole = values(n, 2 * (begin + s * (end - begin)) - 1);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        result(i, j) += 2 * gauss.weight(q) * own[i] * whole[j];
+  }
+  return result;
+}
+
 double legendre::evaluate(const std::vector<double> &coefficients, const double x)
 {
   double sum = 0, P = 1, before = 0; // as in values()
@@ -91,21 +107,7 @@ const FullMatrix<double> &LegendreTables::part(const unsigned int n, const unsig
       result(i, i) = i % 2 ? -1. : 1.;
     return result;
   };
-  const auto half = [&]()
-  {
-    const QGauss<1> gauss(n + 1);
-    const FullMatrix<double> &project = projection(n, n + 1);
-    FullMatrix<double> whole(n + 1, n);
-    for (unsigned int q = 0; q <= n; ++q)
-    {
-      const std::vector<double> L = legendre::values(n, gauss.point(q)[0] + part - 1.);
-      for (unsigned int i = 0; i < n; ++i)
-        whole(q, i) = L[i];
-    }
-    FullMatrix<double> result(n, n);
-    project.mmult(result, whole);
-    return result;
-  };
+  const auto half = [&]() { return legendre::restriction(n, 0.5 * part, 0.5 * (part + 1)); };
   const std::array<unsigned int, 2> key{{n, part}};
   return part == 2 ? memoised(parts, key, turned) : memoised(parts, key, half);
 }

@@ -246,15 +246,15 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
   std::vector<EquilibrationCache::Signature> keys(parts.size());
   parallel_for_each(parts.size(), 8, [&](const unsigned int k) { keys[k] = key(*parts[k]); });
   using Kept = decltype(cache.row_elements)::mapped_type;
-  const auto elements = ordered_values(
-      cache.row_elements, keys,
-      [&](const unsigned int k)
-      {
-        const EquilibrationCache::Signature &of = keys[k];
-        return Kept{std::make_unique<const RowElement>(cache.row_table(of[0], of[3], of[2]),
-                                                       shape_of(*parts[k])),
-                    false};
-      });
+  const auto elements =
+      ordered_values(cache.row_elements, keys,
+                     [&](const unsigned int k)
+                     {
+                       const EquilibrationCache::Signature &of = keys[k];
+                       return Kept{std::make_unique<const RowElement>(
+                                       cache.row_table(of[0], of[3], of[2]), shape_of(*parts[k])),
+                                   false};
+                     });
   for (unsigned int k = 0; k < parts.size(); ++k)
   {
     elements[k]->is_used = true;
@@ -284,8 +284,8 @@ void RowStresses::cut(const unsigned int index)
   for (unsigned int y = 0; y + 1 < cuts[1].size(); ++y)
     for (unsigned int x = 0; x + 1 < cuts[0].size(); ++x)
     {
-      const BoundingBox<2> box(std::pair<Point<2>, Point<2>>(
-          {cuts[0][x], cuts[1][y]}, {cuts[0][x + 1], cuts[1][y + 1]}));
+      const BoundingBox<2> box(std::pair<Point<2>, Point<2>>({cuts[0][x], cuts[1][y]},
+                                                             {cuts[0][x + 1], cuts[1][y + 1]}));
       Part part{index, box, map, nullptr, 0., {}, 0.};
       if (cuts[0].size() > 2 || cuts[1].size() > 2)
       {
@@ -298,6 +298,12 @@ void RowStresses::cut(const unsigned int index)
       cells[index].parts.push_back(part);
     }
   cells[index].n_xi = cuts[0].size() - 1;
+}
+
+/** Has it a part of a face of the cell? */
+bool RowStresses::is_on(const Part &part, const unsigned int face) const
+{
+  return part.box.vertex(face % 2 ? 3 : 0)[face / 2] == double(face % 2);
 }
 
 /** The edge of a master's face, or null. */
@@ -317,12 +323,12 @@ EquilibrationCache::Signature RowStresses::key(const Part &part) const
     degree = std::max(degree, patches.edges()[edge].degree - 1);
   unsigned int points = energy_points(shape.map, degree), corners = 0;
   if (solution.scene.has_initial_strain()) // which is no polynomial of the cell's degree
-    points = std::max(
-        points, solution.spaces->loads
-                        ->initial_strain(cell.iterator,
-                                         solution.displacement_space.degrees()[part.cell])
-                        .most_points +
-                    2);
+    points =
+        std::max(points, solution.spaces->loads
+                                 ->initial_strain(cell.iterator,
+                                                  solution.displacement_space.degrees()[part.cell])
+                                 .most_points +
+                             2);
   for (unsigned int corner = 0; corner < 4; ++corner)
     if ((outer_corners(cell.iterator) & (1u << corner)) &&
         part.box.unit_to_real(GeometryInfo<2>::unit_cell_vertex(corner)) ==
@@ -358,10 +364,10 @@ RowShape RowStresses::shape_of(const Part &part) const
   for (unsigned int face = 0; face < 4; ++face)
   {
     const double side = part.box.side_length(1 - face / 2);
-    const bool is_outer = part.box.vertex(face % 2 ? 3 : 0)[face / 2] == double(face % 2);
     result.densities[face] =
-        is_outer ? side * patches.edges()[cell.edges[face]].length / (cell.parts[face] < 2 ? 4 : 2)
-                 : size_of(map_of<2>(cell.iterator)) / 2; // between parts
+        is_on(part, face)
+            ? side * patches.edges()[cell.edges[face]].length / (cell.parts[face] < 2 ? 4 : 2)
+            : size_of(map_of<2>(cell.iterator)) / 2; // between parts
   }
   result.antisymmetry = CellConstants(map_of<2>(cell.iterator)).antisymmetry(material);
   return result;
@@ -408,8 +414,9 @@ void RowStresses::add_stress(const Part &part, OfVertices &result) const
 {
   const unsigned int p = solution.displacement_space.degrees()[part.cell],
                      k = part.element->table.k,
-                     n_gauss = part.map.is_curved() ? stiffness_points(part.map, p)
-                                                    : std::max(stiffness_points(part.map, k), k + 1),
+                     n_gauss = part.map.is_curved()
+                                   ? stiffness_points(part.map, p)
+                                   : std::max(stiffness_points(part.map, k), k + 1),
                      n_modes = std::min(k + 1, n_gauss);
   const std::vector<SymmetricTensor<2, 2>> stress = sigma(part, n_gauss);
   const std::vector<Point<2>> &points = solution.tables.gradients(p, n_gauss).points;
@@ -441,8 +448,8 @@ void RowStresses::add_stress(const Part &part, OfVertices &result) const
   const ShapeTable<2> &table = solution.tables.gradients(p, n_gauss);
   for (unsigned int v = 0; v < 4; ++v)
     for (unsigned int q = 0; q < table.points.size(); ++q)
-      result.moment[v] -= table.weights[q] * 4 * part.h *
-                          scalar_product(fluxes[q], beyond.slopes(v, table, q));
+      result.moment[v] -=
+          table.weights[q] * 4 * part.h * scalar_product(fluxes[q], beyond.slopes(v, table, q));
 }
 
 /** Body forces and initial strains by the points of their rules, where the discrete equations know them. */
@@ -460,8 +467,8 @@ void RowStresses::add_loads(Part &part, OfVertices &result)
   const auto initial = [&](const Point<2> &x)
   { return std::pair(Tensor<1, 2>(), law.stress(scene.initial_strain_in(iterator, x))); };
   if (scene.has_body_force())
-    add_load(part, solution.spaces->loads->body_force(iterator, p), force, beyond ? &*beyond : nullptr,
-             &part.divergence, result);
+    add_load(part, solution.spaces->loads->body_force(iterator, p), force,
+             beyond ? &*beyond : nullptr, &part.divergence, result);
   if (scene.has_initial_strain())
     add_load(part, solution.spaces->loads->initial_strain(iterator, p), initial,
              beyond ? &*beyond : nullptr, nullptr, result);
@@ -531,7 +538,7 @@ void RowStresses::add_joints(const Part &part, OfVertices &result) const
   for (unsigned int face = 0; face < 4; ++face)
   {
     const JointEdge *const edge = master(part.cell, face);
-    if (!edge || part.box.vertex(face % 2 ? 3 : 0)[face / 2] != double(face % 2))
+    if (!edge || !is_on(part, face))
       continue;
     const unsigned int along = 1 - face / 2;
     const double begin = part.box.lower_bound(along), length = part.box.side_length(along);
@@ -595,7 +602,8 @@ RowStresses::OfVertices RowStresses::data_of(Part &part)
     RowValues::Stress difference(element.table);
     element.values.add(fields, difference);
     for (unsigned int q = 0; q < stress.size(); ++q)
-      element.values.subtract(q, stress[q], hat(part, v, element.table.points[q]).value, difference);
+      element.values.subtract(q, stress[q], hat(part, v, element.table.points[q]).value,
+                              difference);
     result.gradients[v] = element.reduced(element.values.derivatives(difference));
     result.defects[v] = element.moments(divergence.data());
     for (double &defect : result.defects[v])
@@ -672,8 +680,7 @@ void RowStresses::join_parts(const unsigned int index)
   std::vector<CutElement::Part> parts;
   for (const Part &part : cell.parts)
     parts.push_back({part.box, part.element, part.h, part.map.point({0.5, 0.5})});
-  cell.joined =
-      std::make_unique<const CutElement>(parts, cell.n_xi, cell.h, map.point({0.5, 0.5}));
+  cell.joined = std::make_unique<const CutElement>(parts, cell.n_xi, cell.h, map.point({0.5, 0.5}));
 }
 
 /** sigma(u_N) at the points of the element, less the initial stress there. */
@@ -728,7 +735,8 @@ PatchCell RowStresses::patch_cell(const unsigned int index, const unsigned int h
 
 /** Of each part, what it has in joints included. */
 std::vector<std::vector<double>>
-RowStresses::tractions_of_parts(const unsigned int index, const std::vector<double> &tractions) const
+RowStresses::tractions_of_parts(const unsigned int index,
+                                const std::vector<double> &tractions) const
 {
   const Cell &cell = cells[index];
   std::vector<std::vector<double>> result{tractions};
@@ -828,33 +836,40 @@ double RowStresses::missed_force(const unsigned int index) const
   return std::sqrt(square);
 }
 
+std::vector<RowStresses::JointPart> RowStresses::joint_parts(const unsigned int index,
+                                                             const unsigned int face) const
+{
+  std::vector<JointPart> result;
+  for (const Part &part : cells[index].parts)
+    if (master(index, face) && is_on(part, face))
+    {
+      const unsigned int along = 1 - face / 2, n = part.element->table.k + 1;
+      const auto first = part.tractions.begin() + 2 * face * n;
+      result.push_back({part.box.lower_bound(along),
+                        part.box.upper_bound(along),
+                        {{{first, first + n}, {first + n, first + 2 * n}}}});
+    }
+  return result;
+}
+
 double RowStresses::missed_traction(const unsigned int index, const unsigned int face) const
 {
   double square = 0;
-  const JointEdge *const edge = master(index, face);
-  if (!edge)
-    return square;
-  for (const Part &part : cells[index].parts)
-  {
-    if (part.box.vertex(face % 2 ? 3 : 0)[face / 2] != double(face % 2))
-      continue;
-    const unsigned int along = 1 - face / 2, n = part.element->table.k + 1;
-    const double begin = part.box.lower_bound(along), length = part.box.side_length(along);
-    for (const JointPiece &piece : edge->pieces)
-      for (const auto &[s, weight] : joints->points(piece, 2 * n))
-        if (const double at = (s - begin) / length; at > 0. && at < 1.)
+  for (const auto &[begin, end, components] : joint_parts(index, face))
+    for (const JointPiece &piece : master(index, face)->pieces)
+      for (const auto &[s, weight] : joints->points(piece, 2 * components[0].size()))
+        if (s > begin && s < end)
         {
           const Tensor<1, 2> exact =
               (face % 2 ? 1. : -1.) * joints->value(piece.face, piece.on_slave(s));
-          const std::vector<double> L = legendre::values(n, 2 * at - 1);
           for (unsigned int row = 0; row < 2; ++row)
           {
-            const double missed = std::inner_product(
-                L.begin(), L.end(), &part.tractions[(2 * face + row) * n], -exact[row]);
+            const double missed =
+                legendre::evaluate(components[row], 2 * (s - begin) / (end - begin) - 1) -
+                exact[row];
             square += (piece.end - piece.begin) * weight * missed * missed;
           }
         }
-  }
   return std::sqrt(square * patches.edges()[patches.cells()[index].edges[face]].length);
 }
 } // namespace hpvi

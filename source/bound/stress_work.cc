@@ -132,7 +132,9 @@ public:
 
   void add_to(TractionWork &work, const Solution<2> &solution, const Solution<2> &z) const
   {
-    if (directions.empty())
+    const double begin = std::max(0., std::min(ends[0], ends[1])),
+                 end = std::min(1., std::max(ends[0], ends[1]));
+    if (directions.empty() || begin >= end)
       return;
     const unsigned int p = z.displacement_space.degrees()[cell];
     const std::vector<double> coefficients = z.coefficients(cell);
@@ -147,8 +149,7 @@ public:
         result += (direction[0] * value[0] + direction[1] * value[1]) * direction;
       return result;
     };
-    work.add(edge, solution, {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])},
-             (edge.n_coefficients() + p) / 2 + 1, at);
+    work.add(edge, solution, {begin, end}, (edge.n_coefficients() + p) / 2 + 1, at);
   }
 
 private:
@@ -170,9 +171,9 @@ bool touches(const BoundingBox<2> &box, const unsigned int face)
 StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bound,
                               const Solution<2> &z, PartTables &tables)
 {
-  std::map<std::pair<unsigned int, unsigned int>, const EdgeTraction *> edges;
+  std::map<std::pair<unsigned int, unsigned int>, std::vector<const EdgeTraction *>> edges;
   for (const EdgeTraction &edge : bound.tractions)
-    edges[{edge.cell->active_cell_index(), edge.face}] = &edge;
+    edges[{edge.cell->active_cell_index(), edge.face}].push_back(&edge);
   TractionWork tractions;
   double energy = 0, absolute = 0;
   for (const auto &[a, in_a, b, in_b, work] : stress_on_parts(
@@ -186,8 +187,8 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
     }
     for (const unsigned int face : a->face_indices())
       if (a->at_boundary(face) && touches(in_a, face))
-        EdgePart(*edges.at({a->active_cell_index(), face}), solution.scene, a, in_a, b, in_b)
-            .add_to(tractions, solution, z);
+        for (const EdgeTraction *const edge : edges.at({a->active_cell_index(), face}))
+          EdgePart(*edge, solution.scene, a, in_a, b, in_b).add_to(tractions, solution, z);
   }
   const Vector<double> loads =
       body_loads(solution.scene, z.displacement_space, solution.tables, *solution.spaces->loads);

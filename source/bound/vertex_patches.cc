@@ -128,7 +128,8 @@ void VertexPatches::collect_edges(const Solution<2> &solution, const JointTracti
         if (const JointEdge *const joint = joints ? joints->edge(index, f) : nullptr)
         {
           // a bilateral foundation has no multiplier along its normal
-          edge.is_given = joint->pieces[0].has_other || condition_of(edge, solution).is_unilateral() ||
+          edge.is_given = joint->pieces[0].has_other ||
+                          condition_of(edge, solution).is_unilateral() ||
                           condition_of(edge, solution).contact == Contact::tangential;
           edge.degree = std::max(edge.degree, joints->degree(*joint) + 2);
         }

@@ -58,8 +58,9 @@ struct Range
 struct Step
 {
   std::string name;
-  double norm, bound; ///< NaN: has none
-  double error;       ///< distance from the reference; NaN where there is none
+  double norm, bound;     ///< NaN: has none
+  double error;           ///< distance from the reference; NaN where there is none
+  double of_rigid_motion; ///< what round-off of it strains
   std::vector<std::pair<std::string, Range>> ranges; ///< of energy, forces and mean displacements
 };
 
@@ -96,7 +97,12 @@ double round_off_of_energy(const StepReport<2> &step, const double floor)
 /** What is guaranteed: without a bound no more than an energy above the least one. */
 Step guaranteed(const StepReport<2> &step)
 {
-  Step result{"step " + std::to_string(step.number), step.energies.norm, none, none, {}};
+  Step result{"step " + std::to_string(step.number),
+              step.energies.norm,
+              none,
+              none,
+              std::sqrt(round_off_of_energy(step, 0.)),
+              {}};
   const double energy = step.energies.energy,
                round_off = round_off_of_energy(step, floor_of_energies);
   if (!step.bound)
@@ -136,6 +142,7 @@ Step exact(const StepReport<2> &step)
               step.energies.norm,
               none,
               none,
+              0.,
               {{"energy", {energy, energy, round_off_of_energy(step, floor_of_exact)}}}};
   for (const auto &[name, number] : numbers)
     if (!std::isnan(number.value))
@@ -224,17 +231,18 @@ std::string reason_of(const std::string &refusal)
 /** All kinds of scenes, in the order in which they take turns. */
 std::vector<std::string> all_kinds()
 {
-  std::vector<std::string> result{"rough", "bodies"};
+  std::vector<std::string> result{"rough", "bodies", "unmatched"};
   result.insert(result.end(), attack::hidden_kinds.begin(), attack::hidden_kinds.end());
   return result;
 }
 
 attack::DrawnScene draw(const std::string &kind, std::mt19937 &random)
 {
-  if (kind != "rough" && kind != "bodies")
+  if (kind != "rough" && kind != "bodies" && kind != "unmatched")
     return attack::hidden_scene(kind, random);
-  const std::string text =
-      kind == "rough" ? attack::rough_scene(random) : attack::touching_scene(random);
+  const std::string text = kind == "rough"
+                               ? attack::rough_scene(random)
+                               : attack::touching_scene(random, /*matches=*/kind == "bodies");
   return {text, text, true};
 }
 
@@ -308,7 +316,7 @@ std::vector<std::string> Attack::flaws(const Run &run, const Run &reference,
   std::vector<std::string> result;
   for (const Step &step : run.steps)
   {
-    const double round_off = floor_of_errors * step.norm;
+    const double round_off = floor_of_errors * step.norm + step.of_rigid_motion;
     if (step.bound + of_reference + round_off < step.error)
       result.push_back(step.name + ": bound " + std::to_string(step.bound / step.error) +
                        " times the distance from the reference, whose bound is " +

@@ -24,8 +24,9 @@ struct Box
 class TouchingScene
 {
 public:
-  explicit TouchingScene(std::mt19937 &random)
-      : random(random), dice(random), angle(dice.happens(0.3) ? 0. : dice.number(-3, 3))
+  TouchingScene(std::mt19937 &random, const bool matches)
+      : random(random), dice(random), matches(matches),
+        angle(dice.happens(0.3) ? 0. : dice.number(-3, 3))
   {
     boxes.push_back(
         {{{0, -0.8}}, {{2, 0}}, {{4, 1 + static_cast<unsigned int>(dice.number(0, 2))}}});
@@ -53,6 +54,7 @@ private:
 
   std::mt19937 &random;
   Dice dice;
+  const bool matches;
   const double angle;
   std::vector<Box> boxes;
   std::ostringstream out;
@@ -77,6 +79,13 @@ void TouchingScene::add_box()
     box.cells[0] = 2 * n;
   else if (n % 2 == 0 && dice.happens(0.3))
     box.cells[0] = n / 2;
+  if (!matches)
+  {
+    box.cells[0] = 1 + static_cast<unsigned int>(dice.number(0, 7));
+    for (double *const end : {&box.lower[0], &box.upper[0]})
+      if (dice.happens(0.5))
+        *end += (end == &box.lower[0] ? 1 : -1) * dice.number(0.01, 0.45) * step;
+  }
   boxes.push_back(box);
 }
 
@@ -194,8 +203,8 @@ std::string TouchingScene::text()
 }
 } // namespace
 
-std::string touching_scene(std::mt19937 &random)
+std::string touching_scene(std::mt19937 &random, const bool matches)
 {
-  return TouchingScene(random).text();
+  return TouchingScene(random, matches).text();
 }
 } // namespace attack

@@ -82,7 +82,7 @@ private:
 
   const Solution<2> &solution;
   const VertexPatches &patches;
-  const JointTractions *const joints; ///< null: contact_parts are given
+  const JointTractions *const joints;      ///< null: contact_parts are given
   std::vector<ContactParts> contact_parts; ///< by contact face
   std::vector<Halves> halves;              ///< by edge
 };

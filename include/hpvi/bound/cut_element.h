@@ -62,12 +62,13 @@ private:
   const double h;
   const dealii::Point<2> centre;
   const unsigned int k;
-  unsigned int n = 0;                         ///< tractions on the faces of the cell and between boxes
+  unsigned int n = 0; ///< tractions on the faces of the cell and between boxes
   std::vector<dealii::FullMatrix<double>> to; ///< by box: its tractions by those
   dealii::FullMatrix<double> A;               ///< energy, n x n
   dealii::FullMatrix<double> C;               ///< conditions of all boxes but the last, 3 each, x n
-  std::unique_ptr<const LuFactor> factor;     ///< of the inner tractions and the multipliers of their conditions
-  dealii::FullMatrix<double> best;            ///< n x n_faces: all tractions by those on faces, without data
+  std::unique_ptr<const LuFactor>
+      factor; ///< of the inner tractions and the multipliers of their conditions
+  dealii::FullMatrix<double> best; ///< n x n_faces: all tractions by those on faces, without data
   std::vector<double> G, N;
   std::vector<dealii::FullMatrix<double>> conditions; ///< by box: of the cell by those of the box
 };

@@ -31,7 +31,7 @@ double lift_energy(const CellMap<2> &map, unsigned int face,
 /** A displacement at a point of a quadrature rule along an edge. */
 struct EdgePoint
 {
-  double s, weight;          ///< in [0,1]; the sum of weights is 1
+  double s, weight;                  ///< in [0,1]; the sum of weights is 1
   dealii::Tensor<1, 2> value, slope; ///< slope by s
 };
 

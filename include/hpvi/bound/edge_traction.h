@@ -26,7 +26,7 @@ struct EdgeTraction
   unsigned int n_coefficients() const;        ///< of the longer component
 };
 
-/** On all edges of all bodies; where two of them touch once for either. */
+/** On all edges of all bodies; where two of them touch once for either, where meshes do not match by parts of the master's edges. */
 std::vector<EdgeTraction> edge_tractions(const EquilibratedStress &stress);
 } // namespace hpvi
 

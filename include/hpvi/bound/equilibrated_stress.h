@@ -55,6 +55,9 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
+  /** As RowStresses has them. */
+  std::vector<RowStresses::JointPart> joint_parts(unsigned int cell, unsigned int face) const;
+
   /** |tau - Pi tau| on a master's face in a joint. */
   double missed_traction(unsigned int cell, unsigned int face) const;
 

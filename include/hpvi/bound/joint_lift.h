@@ -28,10 +28,11 @@ public:
             const JointTractions &tractions);
 
   std::vector<double> energies; ///< |w|_a^2 with springs by active cell index
-  double change = 0; ///< a(u_N, w) - L(w) + |w|_a^2/2
-  std::vector<double> cells; ///< |d - w|_{a,K} with the springs of its edges, likewise
-  std::vector<double> gaps;  ///< of u_N + d by contact face: gap() of ErrorBound [stress length^dim]
-  double work = 0; ///< -int tau . [d - w] + int g (|U_t| - |u_Nt|), of J(U) - J(u_N + w) what is known
+  double change = 0;            ///< a(u_N, w) - L(w) + |w|_a^2/2
+  std::vector<double> cells;    ///< |d - w|_{a,K} with the springs of its edges, likewise
+  std::vector<double> gaps; ///< of u_N + d by contact face: gap() of ErrorBound [stress length^dim]
+  double work =
+      0; ///< -int tau . [d - w] + int g (|U_t| - |u_Nt|), of J(U) - J(u_N + w) what is known
   std::string flaw; ///< why U is not admissible, in words; or empty
 
 private:
@@ -51,7 +52,7 @@ private:
     JointPiece place;
     bool is_joint; ///< else no body lies opposite to this part of a master
     std::array<Mode, 2> modes{{any, any}};
-    std::array<EdgePolynomial, 2> jump; ///< [u_N] by normal and tangent along the piece, less u_0
+    std::array<EdgePolynomial, 2> jump;   ///< [u_N] by normal and tangent along the piece, less u_0
     std::array<EdgePolynomial, 2> change; ///< [d] likewise
     std::array<std::array<double, 2>, 2> at_ends{}; ///< of [d]: end, component
   };
@@ -62,7 +63,7 @@ private:
     dealii::Tensor<1, 2> normal, tangent;
     std::array<unsigned int, 2> vertices;
     std::array<EdgePolynomial, 2> w; ///< its components along the edge
-    std::vector<Piece> pieces; ///< they fill the edge
+    std::vector<Piece> pieces;       ///< they fill the edge
   };
   /** `direction . d = value` at a vertex. */
   struct Wish
@@ -90,7 +91,7 @@ private:
   const std::vector<Slip> slips;
   std::vector<Mover> movers;
   std::map<unsigned int, dealii::Tensor<1, 2>> at_vertices; ///< d
-  double size = 0; ///< of displacements
+  double size = 0;                                          ///< of displacements
 };
 } // namespace hpvi
 

@@ -51,6 +51,9 @@ inline double at_end(const unsigned int i, const bool right)
   return (right || i % 2 == 0 ? 1 : -1) * root(i) * 0.70710678118654752440;
 }
 
+/** n x n: coefficients on [begin, end] of a polynomial on [0,1] by those there. */
+dealii::FullMatrix<double> restriction(unsigned int n, double begin, double end);
+
 /** Value of the polynomial with @p coefficients at @p x. */
 double evaluate(const std::vector<double> &coefficients, double x);
 } // namespace legendre

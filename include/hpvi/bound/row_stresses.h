@@ -46,6 +46,14 @@ public:
   /** |tau - Pi tau| on a master's face in a joint, zero on others. */
   double missed_traction(unsigned int cell, unsigned int face) const;
 
+  /** What the slave exerts on a part of a master's face, towards growing reference coordinates: by x and y, from begin to end. */
+  struct JointPart
+  {
+    double begin, end;
+    std::array<std::vector<double>, 2> components;
+  };
+  std::vector<JointPart> joint_parts(unsigned int cell, unsigned int face) const;
+
 private:
   class BeyondSpace;
   /** All of a cell, or a box of it between cuts. */
@@ -89,6 +97,7 @@ private:
   };
 
   void cut(unsigned int cell);
+  bool is_on(const Part &part, unsigned int face) const;
   const JointEdge *master(unsigned int cell, unsigned int face) const;
   EquilibrationCache::Signature key(const Part &part) const;
   RowShape shape_of(const Part &part) const;

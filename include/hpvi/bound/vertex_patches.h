@@ -60,8 +60,8 @@ struct StressEdge
       0; ///< of a parallelogram's sides: the shear in its frame is `S_xy = T_t - skew T_n`
   dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
   unsigned int contact_face = dealii::numbers::invalid_unsigned_int; ///< of ContactSpace::faces()
-  bool is_given = false; ///< by JointTractions
-  std::array<Component, 2> components; ///< orthogonal directions
+  bool is_given = false;                                             ///< by JointTractions
+  std::array<Component, 2> components;                               ///< orthogonal directions
 
   bool at_boundary() const
   {
