@@ -238,7 +238,7 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
       continue;
     const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
     const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-    if (condition.has_traction() || condition.friction || condition.spring)
+    if (condition.has_traction() || condition.friction || condition.spring || edge.is_given)
       for (const StressEdge::Side &side : edge.sides) // friction between two bodies acts on both
         oscillation[side.cell] +=
             CellConstants(map_of<2>(patches.cells()[side.cell].iterator)).trace(side.face) *

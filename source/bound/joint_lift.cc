@@ -406,7 +406,7 @@ void JointLift::add_rest(const Mover &mover)
 void JointLift::add_gaps(const Mover &mover, const Piece &piece)
 {
   const ContactFace<2> &face = solution.contact_space.faces()[piece.place.face];
-  const double length = face.length * std::abs(piece.place.at_end - piece.place.at_begin);
+  const double length = std::abs(piece.place.at_end - piece.place.at_begin);
   const EdgePolynomial u_t = piece.jump[1], left = piece.jump[1] + piece.change[1],
                        open = piece.jump[0] + piece.change[0];
   const unsigned int n = std::max(u_t.coefficients().size(), open.coefficients().size());
@@ -426,7 +426,7 @@ void JointLift::add_gaps(const Mover &mover, const Piece &piece)
     part.at_end = part.at_begin + width * (piece.place.at_end - piece.place.at_begin);
     for (const auto &[t, weight] : tractions.points(part, n))
     {
-      const double s = part.on_slave(t), ds = length * width * weight;
+      const double s = part.on_slave(t), ds = length * width * weight * face.frame(s).measure;
       const Tensor<1, 2> tau = tractions.value(piece.place.face, s);
       work -= mover.sign * ds * (tau * rest(mover, piece, t));
       if (piece.modes[0] == below)

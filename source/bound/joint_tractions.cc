@@ -169,8 +169,9 @@ std::vector<std::pair<double, double>> JointTractions::points(const JointPiece &
         at > 0. && at < 1.)
       cuts.push_back(at);
   std::sort(cuts.begin(), cuts.end());
-  const QGauss<1> &gauss =
-      solution.tables.gauss((degree(piece.face) + more) / 2 + 1 + (varies(rule) ? 8 : 0));
+  const ContactFace<2> &face = solution.contact_space.faces()[piece.face];
+  const QGauss<1> &gauss = solution.tables.gauss((degree(piece.face) + more) / 2 + 1 +
+                                                 (varies(rule) || face.map.is_curved() ? 8 : 0));
   std::vector<std::pair<double, double>> result;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -263,12 +264,13 @@ Vector<double> JointTractions::missing_forces() const
       nodes.push_back(node[0]);
     for (const JointPiece &piece : edge.pieces)
     {
-      const double length = solution.contact_space.faces()[piece.face].length *
-                            std::abs(piece.at_end - piece.at_begin);
+      const double width = std::abs(piece.at_end - piece.at_begin);
       for (const auto &[s, weight] : points(piece, p))
       {
-        const Tensor<1, 2> force =
-            (edge.is_slave ? -1. : 1.) * length * weight * value(piece.face, piece.on_slave(s));
+        const double at = piece.on_slave(s),
+                     ds = width * weight *
+                          solution.contact_space.faces()[piece.face].frame(at).measure;
+        const Tensor<1, 2> force = (edge.is_slave ? -1. : 1.) * ds * value(piece.face, at);
         const std::vector<double> phi = lagrange_basis(nodes, s);
         for (unsigned int c = 0; c < 2; ++c)
           for (unsigned int j = 0; j < n; ++j)

@@ -77,6 +77,18 @@ std::string unbounded_joint(const ContactSpace<dim> &contact_space)
   return {};
 }
 
+template <int dim>
+bool has_oblique_contact(const ContactSpace<dim> &contact_space)
+{
+  for (const ContactFace<dim> &face : contact_space.faces())
+    for (const double s : {0., 0.5, 1.})
+      if (const Tensor<1, dim> normal =
+              contact_frame(face.map, face.face_no, Point<dim - 1>(s)).normal;
+          (face.frame(s).normal - normal).norm() > 1e-12)
+        return true;
+  return false;
+}
+
 namespace
 {
 /** Is [begin, end] a part of [0, 1] that bisections make of it? */
@@ -111,22 +123,6 @@ std::vector<bool> nested_cells(const ContactSpace<dim> &contact_space, const uns
 
 namespace
 {
-/** The first boundary whose contact is along another direction than the normal; null: there is none. */
-template <int dim>
-const BoundaryCondition<dim> *oblique_contact(const Scene<dim> &scene)
-{
-  if (std::none_of(scene.boundaries.begin(), scene.boundaries.end(),
-                   [](const BoundaryCondition<dim> &b)
-                   { return b.contact_direction && b.has_contact(); }))
-    return nullptr;
-  const std::vector<Side<dim>> sides = sides_of(scene);
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    for (const Point<dim> &x : sides[boundary.id].sample())
-      if (const Tensor<1, dim> n = sides[boundary.id].normal(x); boundary.held_direction(n) != n)
-        return &boundary;
-  return nullptr;
-}
-
 /** The first boundary along a curve whose normal displacement is held, or has a bound; null: there is none. */
 template <int dim>
 const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
@@ -135,7 +131,7 @@ const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
     return nullptr;
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.has_contact() || boundary.symmetry)
+    if ((boundary.has_contact() && !boundary.contact_direction) || boundary.symmetry)
       for (const CurvePiece &curve : sides[boundary.id].curves)
         if (curve)
           return &boundary;
@@ -149,9 +145,6 @@ std::string no_error_bound(const Scene<dim> &scene)
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.has_contact() && boundary.friction.knows_pressure())
       return boundary.friction.name() + " minimises no energy";
-  if (const BoundaryCondition<dim> *const oblique = oblique_contact(scene))
-    return "contact of " + printable(oblique->name) +
-           " acts along its Contact direction, which is not the normal";
   if (scene.is_axisymmetric())
     return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (scene.adaptivity.start_degree < 2)
@@ -159,10 +152,6 @@ std::string no_error_bound(const Scene<dim> &scene)
   if (const BoundaryCondition<dim> *const curved = curved_contact(scene))
     return "the normal of " + printable(curved->name) +
            " turns along a curved edge, and tractions of a stress in equilibrium do not follow it";
-  if (!scene.bound_on_distorted_cells && scene.geometry.has_mesh() && scene.geometry.bodies.empty())
-    return "cells are in no rows and columns, and Error/Bound on distorted cells is false";
-  if (!scene.bound_on_distorted_cells && !scene.geometry.has_affine_cells())
-    return "cells are no parallelograms, and Error/Bound on distorted cells is false";
   return {};
 }
 
@@ -233,6 +222,7 @@ template struct FaceDofs<2>;
 template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
 template std::string unmatched_joint(const ContactSpace<2> &);
 template std::string unbounded_joint(const ContactSpace<2> &);
+template bool has_oblique_contact(const ContactSpace<2> &);
 template std::string no_error_bound(const Scene<2> &);
 template std::string no_error_bound(const Scene<3> &);
 template void match_nested(const Scene<2> &, const ShapeTables<2> &, Triangulation<2> &, Degrees &);

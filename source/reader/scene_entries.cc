@@ -253,13 +253,14 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Error", "Bound", "true", one_of({"true", "false", "last step"}),
         "true, false or last step",
         "Compute the guaranteed bound of the error, where there is one (doc/bound.md). true: of "
-        "each step. last step: of the last one alone, which saves most of its time; cells are "
+        "each step; on meshes of files and where cells are no parallelograms it takes longer than "
+        "the step itself, and a file that does not name it has last step there. last step: of the "
+        "last one alone, which saves most of its time; cells are "
         "marked by Indicator = residual then, and where Tolerance on asks for the bound or an "
         "interval the first step has it, too, and those that may meet the tolerance by their "
         "indicator."},
        {"Error", "Bound on distorted cells", "false", boolean, yes_no,
-        "Compute it where cells are no parallelograms, and on meshes of files, too: that takes "
-        "longer than the step itself."},
+        "Has no effect any more: bodies of any shape have their bound."},
        {"Error", "Reference solution", "", matching(Patterns::Anything()), "a file name or nothing",
         "File reference.dat of an overkill run with the same coarse mesh: errors are measured "
         "against it. Without effect where an exact solution is named."}});

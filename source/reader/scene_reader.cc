@@ -307,6 +307,22 @@ void read_body_force(const Parameters &parameters, const std::optional<double> t
   scene.body_force_of_material.clear();
 }
 
+/** Where cells are no parallelograms the bound takes longer than the step: a file that does not name it has it of the last step. */
+void choose_bound(const Parameters &parameters, Scene<2> &scene)
+{
+  if (parameters.is_named("Error", "Bound on distorted cells"))
+    scene.remarks.push_back("Error/Bound on distorted cells has no effect any more: cells of any "
+                            "shape have a bound, where Error/Bound names nothing in the last step");
+  const bool names_indicator = parameters.is_named("Adaptivity", "Indicator");
+  const bool is_of_file = scene.geometry.has_mesh() && scene.geometry.bodies.empty();
+  if (parameters.is_named("Error", "Bound") || (scene.geometry.has_affine_cells() && !is_of_file) ||
+      (names_indicator && scene.adaptivity.indicator == Indicator::bound))
+    return;
+  scene.error_bound_last = true;
+  if (!names_indicator)
+    scene.adaptivity.indicator = Indicator::residual;
+}
+
 /** All but the load history; @p t is its time, if there is one. */
 template <int dim>
 Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, const UserNames &names,
@@ -323,6 +339,8 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   read_body(*parameters, names, scene);
   read_method(*parameters, scene);
   read_body_force(*parameters, t, scene);
+  if constexpr (dim == 2)
+    choose_bound(*parameters, scene);
   if constexpr (dim == 2)
     read_initial_strains(*parameters, t, scene);
   if constexpr (dim == 2)
@@ -428,6 +446,10 @@ Scene<dim> read_scene(const ParameterFile &written, const SceneUse use,
   Scene<dim> scene = loading.at ? loading.at(loading.time(1))
                                 : read_problem<dim>(parameters, names, name, std::nullopt);
   settle_normal_contact(*parameters, scene);
+  if (scene.error_bound_last)
+    parameters->set("Error", "Bound", "last step");
+  if (scene.error_bound_last && !parameters->is_named("Adaptivity", "Indicator"))
+    parameters->set("Adaptivity", "Indicator", "residual");
   scene.loading = loading;
   scene.adaptivity.is_default_tolerance = is_default_tolerance;
   check(scene, use);

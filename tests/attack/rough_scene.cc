@@ -118,7 +118,7 @@ void choose_method(RandomScene &scene, Dice &dice)
   settings["Adaptivity/Indicator"] = dice.chosen({"residual", "bound"});
   settings["Adaptivity/Maximum steps"] = dice.chosen({"2", "4", "6"});
   settings["Adaptivity/Maximum unknowns"] = "1500";
-  settings["Error/Bound on distorted cells"] = "true";
+  settings["Error/Bound"] = "true";
   settings["Solver/Normal contact"] = dice.chosen({"nodes", "multiplier"});
   if (dice.happens(0.1))
   {

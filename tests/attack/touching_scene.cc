@@ -197,7 +197,7 @@ std::string TouchingScene::text()
       << "\n  set Indicator = " << dice.chosen({"residual", "bound"})
       << "\n  set Maximum steps = " << dice.chosen({"2", "4", "6"})
       << "\n  set Maximum unknowns = 1500\nend\n"
-      << "subsection Error\n  set Bound on distorted cells = true\nend\n"
+      << "subsection Error\n  set Bound = true\nend\n"
       << "subsection Output\n  set VTU = false\nend\n";
   return out.str();
 }

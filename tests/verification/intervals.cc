@@ -219,7 +219,7 @@ TEST(Intervals, CountWhatRoundOffLeavesOfRigidMotions)
                 given::rough("bottom", "tangential", "0.15"),
                 {"Boundary right/Displacement", "0; 0"},
                 given::steps("hap2", "3"),
-                {"Error/Bound on distorted cells", "true"}}));
+                {"Error/Bound", "true"}}));
   EXPECT_EQ(numbers.intervals.at("right.y").size(), 3U);
   for (const Interval &interval : numbers.intervals.at("right.y"))
   {

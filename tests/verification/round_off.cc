@@ -426,7 +426,7 @@ TEST(Floor, OfABodyThatExpandsFreely)
                        {"Adaptivity/Tolerance", "0"},
                        {"Boundary bottom/Symmetry", "true"}};
   const Overrides skew{given::quadrilateral("Geometry", "0, 0; 2, 0; 1.6, 1; 0, 0.8"),
-                       {"Error/Bound on distorted cells", "true"}};
+                       {"Error/Bound", "true"}};
   for (const auto &[name, others] : std::vector<std::pair<std::string, Overrides>>{
            {"as it is", {}},
            {"a strain",

@@ -26,7 +26,7 @@ Overrides ring(const Overrides &others)
                {"Geometry/Subdivisions", "2, 2"},
                {"Material/Young's modulus", "1"},
                {"Material/Poisson's ratio", "0.3"},
-               {"Error/Bound on distorted cells", "true"}},
+               {"Error/Bound", "true"}},
               others);
 }
 
@@ -485,6 +485,10 @@ TEST(RowStresses, SayWhereNormalsTurn)
         "equilibrium do not follow it");
   EXPECT_EQ(no_error_bound(scene_of(ring({{"Boundary outer/Displacement", "0; 0"},
                                           {"Boundary start/Contact", "unilateral"}}))),
+            "");
+  EXPECT_EQ(no_error_bound(scene_of(ring({{"Boundary start/Displacement", "0; 0"},
+                                          {"Boundary outer/Contact", "unilateral"},
+                                          {"Boundary outer/Contact direction", "1; 1"}}))),
             "");
 }
 

@@ -109,7 +109,7 @@ std::vector<Case> cases()
                      {"Geometry/Upper corner", "1, 1"},
                      {"Adaptivity/Method", "hup2"},
                      {"Adaptivity/Start degree", "2"},
-                     {"Error/Bound on distorted cells", "true"}}});
+                     {"Error/Bound", "true"}}});
   result.push_back(
       {"two_contacts", "han-6-12", {given::rough("top", "bilateral", "if(x < 2, 0, 1 + x)")}});
   for (const std::string scene : {"hertz", "resting"})

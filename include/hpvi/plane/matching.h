@@ -52,6 +52,10 @@ std::string unmatched_joint(const ContactSpace<dim> &contact_space);
 template <int dim>
 std::string unbounded_joint(const ContactSpace<dim> &contact_space);
 
+/** Is there contact along another direction than the normal? Then, and where meshes do not match, JointTractions give what contact exerts. */
+template <int dim>
+bool has_oblique_contact(const ContactSpace<dim> &contact_space);
+
 /**
  * Where a bound is asked for, bisects cells of a mesh along joints until bodies match there, where each edge of one is a half, a
  * quarter, ... of an edge of the other, or the reverse. Where some edges never will nothing is done.

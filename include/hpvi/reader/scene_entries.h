@@ -62,8 +62,6 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Adaptivity", "Maximum seconds", adaptivity.maximum_seconds);
   visit("Adaptivity", "Tolerance", adaptivity.tolerance);
   constexpr bool in_plane = std::tuple_size_v<decltype(scene.body_force)> == 2;
-  if (in_plane)
-    visit("Error", "Bound on distorted cells", scene.bound_on_distorted_cells);
   auto &solver = scene.solver;
   visit("Solver", "Primal tolerance", solver.primal_tolerance);
   if (in_plane)

@@ -236,7 +236,6 @@ struct Scene
   bool error_bound = true;       ///< compute ErrorBound where there is one
   bool error_bound_last = false; ///< of the last step alone, and where the tolerance is near
   bool intervals = true;         ///< of forces and means, where there is an ErrorBound
-  bool bound_on_distorted_cells = false; ///< too, where cells are no parallelograms
   SolverSettings solver;
   OutputSettings output;
   Loading<dim> loading;
