@@ -281,10 +281,43 @@ void ResultantIntervals::set(const OfBoundary &boundary, const ErrorBound &bound
   const Side<2> &side = sides[boundary.boundary];
   if (!is_straight(side))
     return;
-  const Tensor<1, 2> n = side.normal(side.point(0, 0.5));
+  const Tensor<1, 2> n =
+      scene.boundaries[boundary.boundary].held_direction(side.normal(side.point(0, 0.5)));
   row.force[0].interval = of({{Motion::normal, n[0]}, {Motion::tangential, -n[1]}});
   row.force[1].interval = of({{Motion::normal, n[1]}, {Motion::tangential, n[0]}});
 }
+
+namespace
+{
+/** What both sides of a pair bear is one force: the narrower interval is that of both, unless they contradict each other. */
+void share(Measured &one, Measured &other, const double sign)
+{
+  std::optional<Interval> &a = one.interval, &b = other.interval;
+  if (!a || !b || std::abs(a->centre - sign * b->centre) > a->half_width + b->half_width)
+    return;
+  if (a->half_width <= b->half_width)
+    b = Interval{sign * a->centre, a->half_width};
+  else
+    a = Interval{sign * b->centre, b->half_width};
+}
+
+void share(const Scene<2> &scene, std::vector<Resultant<2>> &forces)
+{
+  const auto pair_of = [&](const Resultant<2> &row)
+  {
+    return row.kind == ForceKind::contact ? scene.boundaries[row.boundary].pair : std::nullopt;
+  };
+  for (auto row = forces.begin(); row != forces.end(); ++row)
+    for (auto other = forces.begin(); other != row; ++other)
+      if (pair_of(*row) && pair_of(*row) == pair_of(*other))
+      {
+        share(row->normal, other->normal, 1.);
+        share(row->friction, other->friction, 1.);
+        for (unsigned int d = 0; d < 2; ++d)
+          share(row->force[d], other->force[d], -1.);
+      }
+}
+} // namespace
 
 std::string ResultantIntervals::set(const Solution<2> &solution, const ErrorBound &bound,
                                     std::vector<Resultant<2>> &forces)
@@ -302,6 +335,7 @@ std::string ResultantIntervals::set(const Solution<2> &solution, const ErrorBoun
     for (const OfBoundary &boundary : boundaries)
       if (row.kind != ForceKind::load && row.boundary == boundary.boundary)
         set(boundary, bound, row);
+  share(solution.scene, forces);
   return flaws();
 }
 } // namespace hpvi

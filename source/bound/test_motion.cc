@@ -51,8 +51,9 @@ std::array<TractionAlong, 2> tractions_of(const BoundaryCondition<2> &boundary,
   if (boundary.has_displacement())
     return {{{x, boundary.displacement[0] ? reaction : given},
              {y, boundary.displacement[1] ? reaction : given}}};
-  return {{{normal, normal_kind(boundary)},
-           {turned(normal), boundary.is_tied()  ? reaction
+  const Tensor<1, 2> held = boundary.held_direction(normal);
+  return {{{held, normal_kind(boundary)},
+           {turned(held), boundary.is_tied()  ? reaction
                             : boundary.friction ? TractionKind::friction
                                                 : given}}};
 }
@@ -135,9 +136,9 @@ Tensor<1, 2> TestMotion::motion(const unsigned int boundary, const Point<2> &x) 
   case BoundaryMotion::moment:
     return turned(x - original.geometry.centre());
   case BoundaryMotion::normal:
-    return sides[goal].normal(x);
+    return original.boundaries[goal].held_direction(sides[goal].normal(x));
   case BoundaryMotion::tangential:
-    return turned(sides[goal].normal(x));
+    return turned(original.boundaries[goal].held_direction(sides[goal].normal(x)));
   }
   return result;
 }

@@ -310,7 +310,7 @@ void read_body_force(const Parameters &parameters, const std::optional<double> t
 /** Where cells are no parallelograms the bound takes longer than the step: a file that does not name it has it of the last step. */
 void choose_bound(const Parameters &parameters, Scene<2> &scene)
 {
-  if (parameters.is_named("Error", "Bound on distorted cells"))
+  if (parameters.boolean("Error", "Bound on distorted cells"))
     scene.remarks.push_back("Error/Bound on distorted cells has no effect any more: cells of any "
                             "shape have a bound, where Error/Bound names nothing in the last step");
   const bool names_indicator = parameters.is_named("Adaptivity", "Indicator");

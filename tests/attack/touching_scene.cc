@@ -199,6 +199,20 @@ std::string TouchingScene::text()
       << "\n  set Maximum unknowns = 1500\nend\n"
       << "subsection Error\n  set Bound = true\nend\n"
       << "subsection Output\n  set VTU = false\nend\n";
+  if (dice.happens(0.5))
+  {
+    const unsigned int b = static_cast<unsigned int>(dice.number(0, boxes.size()));
+    const Box &box = boxes[b];
+    out << "subsection Probe attacked\n  set ";
+    if (dice.happens(0.5))
+      out << "On = " << side(b, static_cast<unsigned int>(dice.number(0, 4)));
+    else
+      out << "At = "
+          << place((box.lower[0] + box.upper[0]) / 2, (box.lower[1] + box.upper[1]) / 2)
+          << "\n  set Size = "
+          << 0.2 * std::min(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
+    out << "\nend\n";
+  }
   return out.str();
 }
 } // namespace
