@@ -23,7 +23,9 @@ void EquilibrationCache::drop_unused()
       else
         entry = map.erase(entry);
   };
+  // Signatures of those below hold addresses of those above.
   drop(row_elements);
-  drop(patches); // whose signatures hold addresses of elements
+  drop(cut_elements);
+  drop(patches);
 }
 } // namespace hpvi

@@ -304,9 +304,7 @@ void share(Measured &one, Measured &other, const double sign)
 void share(const Scene<2> &scene, std::vector<Resultant<2>> &forces)
 {
   const auto pair_of = [&](const Resultant<2> &row)
-  {
-    return row.kind == ForceKind::contact ? scene.boundaries[row.boundary].pair : std::nullopt;
-  };
+  { return row.kind == ForceKind::contact ? scene.boundaries[row.boundary].pair : std::nullopt; };
   for (auto row = forces.begin(); row != forces.end(); ++row)
     for (auto other = forces.begin(); other != row; ++other)
       if (pair_of(*row) && pair_of(*row) == pair_of(*other))

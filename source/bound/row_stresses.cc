@@ -260,6 +260,7 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
     elements[k]->is_used = true;
     parts[k]->element = elements[k]->value.get();
   }
+  join_parts();
   parallel_for_each(cells.size(), 4, [&](const unsigned int cell) { set_cell(cell); });
 }
 
@@ -638,7 +639,6 @@ void RowStresses::set_cell(const unsigned int index)
     }
     set_missed_force(part);
   }
-  join_parts(index);
   for (unsigned int v = 0; v < 4; ++v)
   {
     gradients[v] = cell.joined ? cell.joined->gradient(data[v]) : data[v].gradients[0];
@@ -669,18 +669,53 @@ void RowStresses::set_cell(const unsigned int index)
   }
 }
 
-/** One element of all parts; none where there is one. */
-void RowStresses::join_parts(const unsigned int index)
+/** One element of all parts of a cell; none where there is one. */
+void RowStresses::join_parts()
 {
-  Cell &cell = cells[index];
-  const CellMap<2> map = map_of<2>(patches.cells()[index].iterator);
-  cell.h = size_of(map);
-  if (cell.parts.size() == 1)
-    return;
-  std::vector<CutElement::Part> parts;
-  for (const Part &part : cell.parts)
-    parts.push_back({part.box, part.element, part.h, part.map.point({0.5, 0.5})});
-  cell.joined = std::make_unique<const CutElement>(parts, cell.n_xi, cell.h, map.point({0.5, 0.5}));
+  std::vector<EquilibrationCache::Signature> keys;
+  std::vector<Cell *> cut;
+  std::vector<std::vector<CutElement::Part>> parts;
+  std::vector<Point<2>> centres;
+  for (unsigned int index = 0; index < cells.size(); ++index)
+  {
+    Cell &cell = cells[index];
+    const CellMap<2> map = map_of<2>(patches.cells()[index].iterator);
+    cell.h = size_of(map);
+    if (cell.parts.size() == 1)
+      continue;
+    cut.push_back(&cell);
+    centres.push_back(map.point({0.5, 0.5}));
+    parts.emplace_back();
+    keys.push_back({long(cell.n_xi)});
+    const auto add = [&](const double value) { keys.back().push_back(std::lround(1e11 * value)); };
+    for (const Part &part : cell.parts)
+    {
+      const Point<2> centre = part.map.point({0.5, 0.5});
+      parts.back().push_back({part.box, part.element, part.h, centre});
+      keys.back().push_back(reinterpret_cast<long>(part.element));
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        add(part.box.lower_bound(d));
+        add(part.box.upper_bound(d));
+        add((centre[d] - centres.back()[d]) / cell.h);
+      }
+      add(part.h / cell.h);
+    }
+  }
+  using Kept = decltype(cache.cut_elements)::mapped_type;
+  const auto elements =
+      ordered_values(cache.cut_elements, keys,
+                     [&](const unsigned int k)
+                     {
+                       return Kept{std::make_unique<const CutElement>(parts[k], cut[k]->n_xi,
+                                                                      cut[k]->h, centres[k]),
+                                   false};
+                     });
+  for (unsigned int k = 0; k < cut.size(); ++k)
+  {
+    elements[k]->is_used = true;
+    cut[k]->joined = elements[k]->value.get();
+  }
 }
 
 /** sigma(u_N) at the points of the element, less the initial stress there. */

@@ -54,8 +54,8 @@ std::array<TractionAlong, 2> tractions_of(const BoundaryCondition<2> &boundary,
   const Tensor<1, 2> held = boundary.held_direction(normal);
   return {{{held, normal_kind(boundary)},
            {turned(held), boundary.is_tied()  ? reaction
-                            : boundary.friction ? TractionKind::friction
-                                                : given}}};
+                          : boundary.friction ? TractionKind::friction
+                                              : given}}};
 }
 
 /** `direction . w = value` at a point. */

@@ -3,6 +3,7 @@
 #define hpvi_equilibration_cache_h
 
 #include <hpvi/algebra/triangular.h>
+#include <hpvi/bound/cut_element.h>
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/patch_data.h>
 #include <hpvi/bound/row_element.h>
@@ -45,6 +46,7 @@ struct EquilibrationCache
     bool is_used = false;
   };
   std::map<Signature, Kept<std::unique_ptr<const RowElement>>> row_elements;
+  std::map<Signature, Kept<std::unique_ptr<const CutElement>>> cut_elements;
   std::map<Signature, Kept<PatchFactor>> patches;
   std::map<CellKey, double> initial_stress_errors, ///< by cell and degree
       missed_forces;                               ///< by cell and 1000 m + p
@@ -52,7 +54,7 @@ struct EquilibrationCache
   /** Which conditions imply all others, by the form of a patch: places in PatchFactor::present. */
   std::map<Signature, std::vector<unsigned int>> independent_conditions;
 
-  /** Drops row elements and patches that have not been used since the last call. */
+  /** Drops elements and patches that have not been used since the last call. */
   void drop_unused();
 };
 } // namespace hpvi

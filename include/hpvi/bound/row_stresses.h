@@ -72,9 +72,9 @@ private:
   struct Cell
   {
     std::vector<Part> parts;
-    unsigned int n_xi;                        ///< of them along xi
-    std::unique_ptr<const CutElement> joined; ///< of several parts
-    CutElement::Data data;                    ///< for that, without hats
+    unsigned int n_xi;                  ///< of them along xi
+    const CutElement *joined = nullptr; ///< of several parts
+    CutElement::Data data;              ///< for that, without hats
     double h;
     std::vector<double> gradients, defects; ///< by hat
   };
@@ -111,7 +111,7 @@ private:
   void add_joints(const Part &part, OfVertices &result) const;
   OfVertices data_of(Part &part);
   void set_cell(unsigned int cell);
-  void join_parts(unsigned int cell);
+  void join_parts();
   std::vector<dealii::SymmetricTensor<2, 2>> stress_at_points(const Part &part) const;
   void set_missed_force(Part &part);
   std::vector<std::vector<double>> tractions_of_parts(unsigned int cell,
