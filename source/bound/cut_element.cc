@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
-#include <hpvi/base/numerical_failure.h>
 #include <hpvi/bound/cut_element.h>
 #include <hpvi/bound/legendre.h>
 
@@ -31,8 +30,7 @@ CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, 
       matrix[(n_inner + c) * size + i] = matrix[i * size + n_inner + c] = C(c, m + i);
   }
   factor = std::make_unique<const LuFactor>(std::move(matrix), size);
-  if (factor->is_singular())
-    throw NumericalFailure("round-off spoils the rows of stresses in cells that are cut");
+  require_regular(!factor->is_singular(), "the rows of stresses");
   best.reinit(n, m);
   std::vector<double> x(size);
   for (unsigned int j = 0; j < m; ++j)

@@ -245,7 +245,7 @@ void JointLift::set_ends(Mover &mover) const
     }
 }
 
-void JointLift::complain(const Piece &piece, const double by)
+void JointLift::set_flaw(const Piece &piece, const double by)
 {
   if (flaw.empty())
     flaw = "two bodies part or pass through one another near " +
@@ -270,7 +270,7 @@ void JointLift::set_changes(Mover &mover)
       for (const unsigned int end : {0, 1})
         if (const double by = piece.modes[c] == exact ? std::abs(left(end)) : left(end);
             by > round_off * size)
-          complain(piece, by);
+          set_flaw(piece, by);
       if (piece.modes[c] == exact)
       {
         std::vector<double> minus = piece.jump[c].coefficients();

@@ -83,7 +83,7 @@ private:
   void set_nodes(Mover &mover, dealii::Vector<double> &u) const;
   dealii::Tensor<1, 2> rest(const Mover &mover, const Piece &piece, double t) const;
   void add_gaps(const Mover &mover, const Piece &piece);
-  void complain(const Piece &piece, double by);
+  void set_flaw(const Piece &piece, double by);
 
   const Solution<2> &solution;
   const Discretisation<2> &discretisation;
