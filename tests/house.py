@@ -33,11 +33,12 @@ EVALUATIONS = {
     "include/hpvi/plane/contact_space.h": 2, "include/hpvi/plane/initial_stress.h": 3,
     "include/hpvi/results/contact_traces.h": 1, "include/hpvi/results/turned_divergence.h": 1,
     "include/hpvi/space/primal_space.h": 1, "source/bound/admissible_pressure.cc": 4,
-    "source/bound/face_contact.cc": 1, "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
-    "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 5,
+    "source/bound/coulomb_bound.cc": 2, "source/bound/coulomb_coupling.cc": 3, "source/bound/slip_direction.cc": 2,
+    "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
+    "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 6,
     "source/plane/contact_numbering.cc": 6, "source/plane/static_admissibility.cc": 1, "source/plane/elastic_system.cc": 2,
     "source/plane/initial_stress.cc": 3, "source/plane/missed_loads.cc": 1,
-    "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 3,
+    "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 2,
     "source/bound/data_error.cc": 2, "source/bound/displacement_lift.cc": 1, "source/bound/joint_lift.cc": 1,
     "source/bound/joint_tractions.cc": 2, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":
     1, "source/bound/row_stresses.cc": 4, "source/results/contact_residuals.cc": 1,
@@ -47,7 +48,7 @@ EVALUATIONS = {
     "source/space/primal_space.cc": 3, "source/space/primal_system.cc": 1, "source/space/support_constraints.cc": 1,
     "source/space/contact_statics.cc": 1, "source/space/load_check.cc": 1, "source/space/load_work.cc": 1,
     "source/space/primal_field.cc": 1, "source/space/nodal_forces.cc": 1, "source/space/past_state.cc": 1,
-    "source/space/upper_energy.cc": 1, "source/bound/edge_polynomial.cc": 1, "source/results/warnings/contact.cc": 2}
+    "source/space/upper_energy.cc": 1, "source/results/warnings/contact.cc": 2}
 MOST_ARROWS = 65  # between rooms
 problems = []
 

@@ -210,7 +210,7 @@ Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) 
   const auto at = [s](const std::vector<double> &part)
   { return legendre::evaluate(part, 2 * s - 1); };
   const double l = (1 - s) * at(friction[0]) + s * at(friction[1]);
-  return result - outward(edge) * face.friction_bound(face.point(s)) * l * face.frame(s).tangent -
+  return result - outward(edge) * face.limit_at(s) * l * face.frame(s).tangent -
          (at(pressure[0]) + at(pressure[1])) * edge.normal;
 }
 

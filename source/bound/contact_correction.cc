@@ -25,6 +25,23 @@ ContactCorrection<dim>::ContactCorrection(const Solution<dim> &solution,
   face_gaps = std::move(best.gaps);
   w = std::move(best.w);
   cell_energies = search.energies(w);
+  for (unsigned int face = 0; face < face_gaps.size(); ++face)
+  {
+    slips.push_back(search.slip(face, w));
+    penetrations.push_back(search.penetration_along(face, w));
+  }
+}
+
+template <int dim>
+const EdgePolynomial &ContactCorrection<dim>::slip(const unsigned int face) const
+{
+  return slips[face];
+}
+
+template <int dim>
+const EdgePolynomial &ContactCorrection<dim>::penetration_along(const unsigned int face) const
+{
+  return penetrations[face];
 }
 
 template <int dim>

@@ -293,6 +293,19 @@ typename CorrectionSearch<dim>::Candidate CorrectionSearch<dim>::best(Candidate 
 }
 
 template <int dim>
+EdgePolynomial CorrectionSearch<dim>::slip(const unsigned int face, const Vector<double> &w) const
+{
+  return traces[face].rest(w);
+}
+
+template <int dim>
+EdgePolynomial CorrectionSearch<dim>::penetration_along(const unsigned int face,
+                                                        const Vector<double> &w) const
+{
+  return openings[face] ? openings[face]->penetration.rest(w) : EdgePolynomial();
+}
+
+template <int dim>
 std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) const
 {
   std::vector<double> result = energies_by_cell(solution, discretisation, w);

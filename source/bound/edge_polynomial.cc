@@ -280,7 +280,7 @@ FrictionRule traction_rule(const ContactFace<dim> &face, const unsigned int degr
       const double width = result.cuts[k + 1] - result.cuts[k];
       result.points.push_back(result.cuts[k] + width * gauss.point(q)[0]);
       result.weights.push_back(width * gauss.weight(q));
-      result.values.push_back(face.friction_bound(face.point(result.points.back())));
+      result.values.push_back(face.limit_at(result.points.back()));
     }
   return result;
 }

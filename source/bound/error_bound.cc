@@ -22,6 +22,7 @@
 #include <hpvi/bound/admissible_friction.h>
 #include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/contact_correction.h>
+#include <hpvi/bound/coulomb_bound.h>
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/bound/joint_lift.h>
@@ -153,6 +154,13 @@ void set_energy(ErrorBound &result, const EquilibratedStress &stress, const Cont
   result.energy_below = result.energy + unknown - centre;
 }
 
+/** Under Coulomb's law no energy is least. */
+void set_no_energy(ErrorBound &result)
+{
+  result.energy = result.energy_below = result.energy_above =
+      std::numeric_limits<double>::quiet_NaN();
+}
+
 // @sect3{When there is none}
 //
 // Each assumption of the theorem is checked on the way. If one fails there is no bound, and a
@@ -269,9 +277,20 @@ moved(const Solution<2> &solution, const Discretisation<2> &discretisation,
                                                            : discretisation.factor().solve(forces));
   discretisation.condensation.extend(u);
   u += solution.u;
-  return Solution<2>(solution.scene, solution.spaces, u, solution.z);
+  Solution<2> result(solution);
+  result.u = u;
+  return result;
 }
 } // namespace
+
+std::string text(const BoundKind kind)
+{
+  constexpr const char *words[] = {"energy", "coupling", "zones", "estimate"};
+  return words[static_cast<unsigned int>(kind)];
+}
+
+ErrorBounds::ErrorBounds() = default;
+ErrorBounds::~ErrorBounds() = default;
 
 std::vector<double> ErrorBound::indicators() const
 {
@@ -290,8 +309,12 @@ struct ErrorBounds::AdmissibleStress
   AdmissibleStress(const Solution<2> &measured, std::optional<Solution<2>> of_mixed_problem,
                    const Discretisation<2> &discretisation, const LinearSolver *const factor,
                    EquilibrationCache &cache)
-      : mixed(std::move(of_mixed_problem)), start(mixed ? *mixed : measured), friction(start),
-        pressure(start), joints(joints_of(start, friction, pressure)),
+      : mixed(std::move(of_mixed_problem)), pressure(mixed ? *mixed : measured),
+        of_pressure(under_admissible_limit(mixed ? *mixed : measured, pressure)),
+        start(of_pressure ? *of_pressure
+              : mixed     ? *mixed
+                          : measured),
+        friction(start), joints(joints_of(start, friction, pressure)),
         balanced(moved(start, discretisation, friction, pressure, joints, factor)),
         stress(
             balanced ? *balanced : start,
@@ -315,9 +338,10 @@ struct ErrorBounds::AdmissibleStress
   }
 
   const std::optional<Solution<2>> mixed;
+  const AdmissiblePressure<2> pressure;
+  const std::optional<Solution<2>> of_pressure; ///< where the limit of friction follows that
   const Solution<2> &start;
   const AdmissibleFriction<2> friction;
-  const AdmissiblePressure<2> pressure;
   const std::optional<JointTractions> joints; ///< where meshes of two bodies do not match
   const std::optional<Solution<2>> balanced;
   const EquilibratedStress stress;
@@ -351,7 +375,8 @@ ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2>
                             std::unique_ptr<LinearSolver> factor, double &hysteresis)
 {
   const std::vector<unsigned int> &degrees = solution.displacement_space.degrees();
-  const bool may_lock = solution.scene.is_nearly_incompressible() && !has_distorted_cells(solution);
+  const bool may_lock = solution.scene.is_nearly_incompressible() &&
+                        !solution.scene.has_coulomb_friction() && !has_distorted_cells(solution);
   const auto n_high = std::count_if(degrees.begin(), degrees.end(),
                                     [](const unsigned int degree) { return degree >= 4; });
   std::unique_ptr<const AdmissibleStress> own;
@@ -377,6 +402,7 @@ struct ErrorBounds::Contact
   ContactError in_norms, in_energy;
   double change = 0;
   std::string flaw;
+  std::optional<ContactCorrection<2>> correction; ///< w of the norms
 };
 
 ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
@@ -384,7 +410,8 @@ ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
                                              const AdmissibleStress &made)
 {
   Contact result;
-  const bool is_moved = solution.scene.has_unilateral_contact() || solution.scene.has_pairs();
+  const bool is_moved =
+      !made.of_pressure && (solution.scene.has_unilateral_contact() || solution.scene.has_pairs());
   std::array<std::optional<ContactCorrection<2>>, 2> corrections;
   parallel_for_each(is_moved ? 2 : 1, 1,
                     [&](const unsigned int k)
@@ -405,17 +432,19 @@ ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
   for (const auto &correction : corrections)
     if (result.flaw.empty() && correction)
       result.flaw = flaw_of_correction(solution, *correction);
+  result.correction = std::move(corrections[0]);
   return result;
 }
 
-ErrorBound ErrorBounds::compute(const Solution<2> &solution,
+ErrorBound ErrorBounds::compute(const Solution<2> &measured,
                                 const Discretisation<2> &discretisation,
                                 std::unique_ptr<LinearSolver> factor, const double hysteresis)
 try
 {
   ErrorBound result;
   result.hysteresis = hysteresis;
-  const auto made = nearest_stress(solution, discretisation, std::move(factor), result.hysteresis);
+  const auto made = nearest_stress(measured, discretisation, std::move(factor), result.hysteresis);
+  const Solution<2> &solution = made->of_pressure ? *made->of_pressure : measured;
   const EquilibratedStress &stress = made->stress;
   std::optional<JointLift> joints;
   Contact contact;
@@ -426,7 +455,8 @@ try
     contact = {{joints->energies, joints->gaps},
                {joints->energies, joints->gaps},
                joints->change,
-               joints->flaw};
+               joints->flaw,
+               std::nullopt};
   }
   parallel_for_each(joints ? 1 : 2, 1,
                     [&](const unsigned int k)
@@ -439,10 +469,24 @@ try
   const DataError &data = *missed;
   set_squares(result, solution, stress, contact.in_norms, data);
   set_norms(result, stress, contact.in_norms, data);
-  set_radius(result, stress, contact.in_norms, data);
+  result.estimate = result.total;
   result.tractions = edge_tractions(stress);
-  set_energy(result, stress, contact.in_energy, contact.change, data);
-  result.moved_by_energy = contact.in_energy.energies;
+  if (made->of_pressure)
+  {
+    if (!coulomb)
+      coulomb = std::make_unique<CoulombBounds>();
+    coulomb->set(result, solution, discretisation, made->friction, made->pressure,
+                 *contact.correction, stress_and_oscillation(stress, data),
+                 distance_from_admissible(contact.in_norms, data));
+    result.radius = result.total;
+    set_no_energy(result);
+  }
+  else
+  {
+    set_radius(result, stress, contact.in_norms, data);
+    set_energy(result, stress, contact.in_energy, contact.change, data);
+    result.moved_by_energy = contact.in_energy.energies;
+  }
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, made->pressure, data, stress.has_rows());
   if (result.flaw.empty())

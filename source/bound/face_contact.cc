@@ -121,8 +121,7 @@ double friction_gap(const ContactFace<2> &face, const EdgePolynomial &v,
       // One difference at a time: where l is the direction of v, nothing is left, not even round-off.
       const double density = std::abs(value) * (l ? 1. - (value < 0. ? -1. : 1.) * l(s) : 1.);
       if (density != 0.)
-        result +=
-            face.length * width * gauss.weight(q) * density * face.friction_bound(face.point(s));
+        result += face.length * width * gauss.weight(q) * density * face.limit_at(s);
     }
   return result;
 }

@@ -100,6 +100,9 @@ void take_bound(const BoundOfStep &bound, StepReport<dim> &step, PastStep<dim> &
     past.hysteresis = bound.bound->hysteresis;
   }
   step.relative_bound = past.relative_bound;
+  if (const auto &known = bound.bound ? bound.bound : bound.estimate)
+    step.equilibrated = {known->estimate, part_of(known->estimate, step.energies.norm),
+                         known->coupling, text(known->kind), known->zones};
 }
 
 /** eta_K by global_cell_indices(): the same cells are marked on any number of processes. Collective. */
@@ -324,10 +327,11 @@ Refinement AdaptiveSolver<dim>::mark() const
 {
   backend->begin("deciding on h and p");
   StageTimer timer(backend->times.decide);
-  const bool by_bound = scene.adaptivity.indicator == Indicator::bound && known_bound().bound;
+  const auto &known = known_bound().bound ? known_bound().bound : known_bound().estimate;
+  const bool by_bound = scene.adaptivity.indicator == Indicator::bound && known;
   Refinement refinement =
       hpvi::mark(scene.adaptivity, backend->degrees(),
-                 by_bound ? bound->bound->indicators() : of_all_cells(estimate, backend->field()),
+                 by_bound ? known->indicators() : of_all_cells(estimate, backend->field()),
                  [&](const unsigned int cell) { return backend->decay_rate(cell); });
   if (scene.adaptivity.method != Method::pu)
     backend->mark_unresolved(refinement);
@@ -529,11 +533,13 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
   take_bound(known_bound(), step, history.back());
   // Forces and means need displacements on a mesh of their own, and the body of a step is that of its degrees.
   const bool is_curved = scene.geometry.has_curves(),
-             is_bounded = step.bound && scene.intervals && !is_curved;
-  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces)
-                      : step.bound && is_curved
-                          ? "curved edges change with the degrees of their cells"
-                          : step.no_bound;
+             has_energy = step.bound && step.bound->kind == BoundKind::energy,
+             is_bounded = has_energy && scene.intervals && !is_curved;
+  step.no_intervals =
+      is_bounded                  ? backend->bound_forces(*step.bound, step.forces)
+      : step.bound && !has_energy ? "Coulomb's law minimises no energy, and intervals need one"
+      : step.bound && is_curved   ? "curved edges change with the degrees of their cells"
+                                  : step.no_bound;
   if (is_bounded)
     mean_intervals.set(step);
   compare_claims(step);

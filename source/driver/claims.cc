@@ -93,7 +93,7 @@ Claims claims_of(const StepReport<dim> &step, const double displacement)
 {
   Claims result;
   const std::string where = "in step " + text(step.number);
-  if (step.bound)
+  if (step.bound && step.bound->kind == BoundKind::energy)
   {
     const double b = step.scene.thickness, J = step.energies.energy;
     result.push_back({"the least energy", where, b * (J - step.bound->energy_below),
@@ -118,6 +118,7 @@ template <int dim>
 void withdraw_claims(StepReport<dim> &step, const std::string &why)
 {
   step.bound.reset();
+  step.equilibrated = {};
   step.no_bound = why;
   step.relative_bound = std::numeric_limits<double>::quiet_NaN();
   step.no_intervals = why;

@@ -49,6 +49,8 @@ template <int dim>
 double relative_half_width(const StepReport<dim> &step)
 {
   const std::string &column = step.scene.adaptivity.tolerance_column;
+  if (column == equilibrated_estimate)
+    return step.equilibrated.relative;
   if (const Measured *const one = measured_in(step, column))
     return one->half_width_about(one->value) / std::abs(one->value);
   const ProbeValue<dim> *const probe = probe_of(step, column);

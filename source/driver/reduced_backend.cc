@@ -369,7 +369,12 @@ BoundOfStep ReducedBackend<dim>::bound(const double hysteresis)
   const ErrorBound bound = bound_beside_forces(hysteresis);
   result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
   result.imbalance = bound.imbalance;
-  if (result.missing.empty())
+  if (result.missing.empty() && bound.kind == BoundKind::estimate)
+  {
+    result.missing = bound.why;
+    result.estimate = bound;
+  }
+  else if (result.missing.empty())
     result.bound = bound;
   return result;
 }

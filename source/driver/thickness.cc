@@ -17,8 +17,8 @@ void multiply(const double factor, Numbers &...numbers)
 
 void take(const double b, const double root, ErrorBound &bound)
 {
-  multiply(root, bound.total, bound.radius, bound.stress, bound.slip, bound.oscillation, bound.data,
-           bound.hysteresis);
+  multiply(root, bound.total, bound.estimate, bound.radius, bound.stress, bound.slip,
+           bound.oscillation, bound.data, bound.hysteresis);
   multiply(b, bound.energy, bound.energy_below, bound.energy_above);
   for (double &square : bound.squares)
     square *= b;
@@ -54,6 +54,7 @@ void take_thickness(StepReport<dim> &step)
            norms.penetration, norms.tension, norms.excess, norms.total, step.scaled_estimate);
   if (step.bound)
     take(b, root, *step.bound);
+  step.equilibrated.norm *= root;
   multiply(b, step.energies.lagrangian, step.energies.energy, step.energies.slack,
            step.energy_high);
   step.energies.norm *= root;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/bound/error_bound.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/chart.h>
 #include <hpvi/output/colour_bands.h>
@@ -51,9 +52,28 @@ std::string convergence_plot(const RunFiles &files)
   chart.x_label = is_history ? "step" : "free unknowns (logarithm of base 10)";
   chart.y_label = "relative to the solution";
   const bool is_contradicted = member(files.summary, "contradiction");
+  bool is_of_energy = true;
+  std::vector<Record> rows = files.steps;
+  for (Record &row : rows)
+  {
+    const std::string kind = words_of(row, "bound_kind");
+    is_of_energy = is_of_energy && (kind.empty() || kind == text(BoundKind::energy));
+    const auto norm = number_of(row, "error_estimate_equilibrated"),
+               whole = number_of(row, "energy_norm");
+    if (norm && whole && !kind.empty() && kind != text(BoundKind::energy))
+      row.emplace_back("estimate_equilibrated_relative", *norm / *whole);
+  }
   for (ChartLine line :
-       {line_of(files.steps, over, "error_bound_relative",
-                {is_contradicted ? "bound, contradicted" : "guaranteed bound", blue, "", true, {}}),
+       {line_of(rows, over, "error_bound_relative",
+                {is_contradicted ? "bound, contradicted"
+                 : is_of_energy  ? "guaranteed bound"
+                                 : "bound, if the coupling is as estimated",
+                 blue,
+                 "",
+                 true,
+                 {}}),
+        line_of(rows, over, "estimate_equilibrated_relative",
+                {"estimate by equilibrated stress", blue, "6 3", !is_history, {}}),
         line_of(files.steps, over, "estimate_relative",
                 {"indicator (no bound)", orange, "6 3", !is_history, {}}),
         line_of(files.steps, over, "error_relative", {"true error", black, "2 2", true, {}})})

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
+#include <hpvi/bound/error_bound.h>
+#include <hpvi/output/bound_words.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/html.h>
 #include <hpvi/output/report_words.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace hpvi
@@ -26,15 +29,6 @@ std::string shown(const JsonTree &tree, const std::string &name, const std::stri
 {
   const std::optional<double> value = number_of(tree, name);
   return value ? with_unit(*value, unit, shown_digits) : "?";
-}
-
-/** A number of few digits that is no less: what is guaranteed stays so. */
-std::string at_most(const double value)
-{
-  if (!(value > 0) || !std::isfinite(value))
-    return text(value, 2);
-  const double unit = std::pow(10., std::floor(std::log10(value)) - 1);
-  return text(unit * std::ceil(value / unit), 2);
 }
 
 /** As in "(1, 0)"; empty where it is null. */
@@ -68,11 +62,13 @@ std::string ending_words(const JsonTree &summary, const Adaptivity &adaptivity)
       steps == "0" ? " No step was finished: there is no result."
                    : " What follows is what step " + steps +
                          ", the last one that was finished, left: no result of this scene.";
+  const JsonTree *const bound = member(summary, "error_bound");
   if (status == text(RunStatus::done))
     return element("p",
                    "Done: " +
                        stop_reason(stop_reason_from(words_of(summary, "stopped_by")), adaptivity,
-                                   member(summary, "error_bound")) +
+                                   bound,
+                                   bound && words_of(*bound, "kind") != text(BoundKind::energy)) +
                        ".",
                    "ending") +
            "\n";
@@ -97,14 +93,19 @@ std::string behind(const std::string &unit)
   return unit_name(unit).empty() ? "" : " " + unit_name(unit);
 }
 
-std::string bound_words(const JsonTree &bound, const std::string &energy)
+/** @p summary: it has the coupling of the last step. */
+std::string bound_words(const JsonTree &bound, const JsonTree &summary, const std::string &energy)
 {
   const std::optional<double> relative = number_of(bound, "relative");
-  std::string words = relative ? "The energy error is at most " + at_most(100 * *relative) +
-                                     " % of the solution, guaranteed"
-                               : "The error in the energy norm is at most " +
-                                     at_most(number_of(bound, "energy_norm").value_or(0)) +
-                                     ", guaranteed";
+  const std::string kind = words_of(bound, "kind"), zones = words_of(summary, "zones_assumed");
+  const double coupling =
+      number_of(summary, "coupling").value_or(std::numeric_limits<double>::quiet_NaN());
+  std::string words =
+      (relative ? "The energy error is " : "The error in the energy norm is ") +
+      error_in_words(kind,
+                     relative ? at_most(100 * *relative) + " % of the solution"
+                              : at_most(number_of(bound, "energy_norm").value_or(0)),
+                     coupling, zones);
   if (const std::string interval = place(bound, "energy"); !interval.empty())
     words += "; the least energy lies in [" + interval.substr(1, interval.size() - 2) + "]" +
              behind(energy);
@@ -114,7 +115,7 @@ std::string bound_words(const JsonTree &bound, const std::string &energy)
 std::string error_words(const JsonTree &summary, const std::string &energy)
 {
   if (const JsonTree *const bound = member(summary, "error_bound"))
-    return item(bound_words(*bound, energy), "Error.");
+    return item(bound_words(*bound, summary, energy), "Error.");
   const JsonTree *const last = member(summary, "final");
   const std::optional<double> indicator =
       last ? number_of(*last, "estimate_relative") : std::nullopt;
@@ -122,11 +123,17 @@ std::string error_words(const JsonTree &summary, const std::string &energy)
   if (indicator)
     words = "The error indicator says about " + text(100 * *indicator, 2) +
             " % of the solution in the energy norm: an estimate, no bound.";
+  if (const JsonTree *const estimate = member(summary, "error_estimate_equilibrated"))
+    if (const std::optional<double> part = number_of(*estimate, "relative"))
+      words = "The energy error is " +
+              error_in_words(text(BoundKind::estimate), text(100 * *part, 2) + " % of the solution",
+                             0., "") +
+              " by a stress in equilibrium: no bound.";
   if (const std::string why = words_of(summary, "no_error_bound"); !why.empty())
     words += " No bound is guaranteed: " + why + ".";
   if (const JsonTree *const earlier = member(summary, "last_error_bound"))
     words += " In step " + words_of(*earlier, "step") +
-             " there was one: " + bound_words(*earlier, energy);
+             " there was one: " + bound_words(*earlier, summary, energy);
   return words.empty() ? "" : item(words, "Error.");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/output/bound_words.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/record.h>
@@ -108,10 +109,26 @@ std::string extremes_in_words(const StepReport<dim> &step)
 }
 } // namespace
 
+namespace
+{
+/** What is known of the error under Coulomb's law. */
+template <int dim>
+std::string bound_of_coulomb(const StepReport<dim> &step)
+{
+  const auto &[norm, relative, coupling, kind, zones] = step.equilibrated;
+  if (kind.empty() || kind == text(BoundKind::energy))
+    return {};
+  const std::string size =
+      step.bound ? at_most(100 * step.relative_bound) : text(100 * relative, 2);
+  return "error in the energy norm: " +
+         error_in_words(kind, size + " % of the solution", coupling, zones) + "\n";
+}
+} // namespace
+
 template <int dim>
 std::string results_in_words(const StepReport<dim> &step)
 {
-  std::string words = "\n" + intervals_in_words(step.forces);
+  std::string words = "\n" + bound_of_coulomb(step) + intervals_in_words(step.forces);
   if (!step.no_intervals.empty() && step.bound) // else it is why the error has no bound
     words += "without an interval: " + step.no_intervals + "\n";
   for (const ProbeValue<dim> &value : step.probes)

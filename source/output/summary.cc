@@ -42,17 +42,32 @@ std::string loading_json(const LoadStep &load, const unsigned int n_load_steps)
                       {"dissipated_energy_trapezoidal", load.trapezoidal}});
 }
 
-/** The guaranteed bound in the row of its step; relative to a displacement of zero it is null. */
+/** The same without the factor of Coulomb's law, where there is no bound either. */
+std::string estimate_json(const Record &row)
+{
+  const std::optional<double> norm = number_of(row, "error_estimate_equilibrated"),
+                              of_all = number_of(row, "energy_norm");
+  if (!norm || !of_all)
+    return "null";
+  return "{\n    \"energy_norm\": " + json_value(value_of(row, "error_estimate_equilibrated")) +
+         ",\n    \"relative\": " + json_value(Value(*norm == 0. ? 0. : *norm / *of_all)) + "\n  }";
+}
+
+/** The bound in the row of its step; relative to a displacement of zero it is null. */
 std::string bound_json(const Record &row)
 {
   if (!number_of(row, "error_bound"))
     return "null";
   const auto field = [&](const std::string &column) { return json_value(value_of(row, column)); };
+  const bool is_of_energy = text(value_of(row, "bound_kind")) == text(BoundKind::energy);
   return "{\n    \"step\": " + field("step") +
-         ",\n    \"guaranteed\": true,\n    \"energy_norm\": " + field("error_bound") +
+         ",\n    \"guaranteed\": " + (is_of_energy ? "true" : "false") +
+         ",\n    \"kind\": " + field("bound_kind") +
+         ",\n    \"energy_norm\": " + field("error_bound") +
          ",\n    \"relative\": " + field("error_bound_relative") +
-         ",\n    \"imbalance\": " + field("bound_imbalance") + ",\n    \"energy\": [" +
-         field("energy_low") + ", " + field("energy_high") + "]\n  }";
+         ",\n    \"imbalance\": " + field("bound_imbalance") + ",\n    \"energy\": " +
+         (is_of_energy ? "[" + field("energy_low") + ", " + field("energy_high") + "]" : "null") +
+         "\n  }";
 }
 } // namespace
 
@@ -115,6 +130,9 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   load = step.load;
   ending.error_bound = bound_json(row);
   ending.no_error_bound = json_value(step.bound ? "" : step.no_bound);
+  ending.estimate = estimate_json(row);
+  ending.coupling = json_value(Value(step.equilibrated.coupling));
+  ending.zones = json_value(step.equilibrated.zones);
   ending.forces = forces_json(step.equilibrium);
   if (step.scene.has_plates())
     ending.plates = plates_json(step.scene, step.equilibrium);
@@ -159,6 +177,9 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"error_bound", ending.error_bound},
       {"no_error_bound", ending.no_error_bound},
       {"last_error_bound", last_error_bound},
+      {"error_estimate_equilibrated", ending.estimate},
+      {"coupling", ending.coupling},
+      {"zones_assumed", ending.zones},
       {"forces", ending.forces},
       {"balance", ending.balance},
       {"contact", ending.contact},

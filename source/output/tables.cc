@@ -152,15 +152,24 @@ Record bound_record(const StepReport<dim> &step)
   const auto end = [&](const int sign, double ErrorBound::*const distance)
   { return step.bound ? Value(step.energies.energy + sign * (*step.bound).*distance) : Value(); };
   const double high = step.energy_high; // where there is no bound
+  const bool has_energy = step.bound && step.bound->kind == BoundKind::energy;
   return {{"error_bound", bound(&ErrorBound::total)},
           {"error_bound_relative", step.relative_bound},
-          {"energy_low", end(-1, &ErrorBound::energy_below)},
-          {"energy_high", step.bound ? end(1, &ErrorBound::energy_above) : Value(high)},
+          {"energy_low", has_energy ? end(-1, &ErrorBound::energy_below) : Value()},
+          {"energy_high", has_energy ? end(1, &ErrorBound::energy_above) : Value(high)},
           {"bound_stress", bound(&ErrorBound::stress)},
           {"bound_slip", bound(&ErrorBound::slip)},
           {"bound_oscillation", bound(&ErrorBound::oscillation)},
           {"bound_data", bound(&ErrorBound::data)},
           {"bound_imbalance", step.bound_imbalance}};
+}
+
+/** The bound without the factor of Coulomb's law, and what kind of one it is. */
+template <int dim>
+Record equilibrated_record(const StepReport<dim> &step)
+{
+  const auto &[norm, relative, coupling, kind, zones] = step.equilibrated;
+  return {{"error_estimate_equilibrated", norm}, {"coupling", coupling}, {"bound_kind", kind}};
 }
 
 /** Seconds by stage and where a history stands. */
@@ -213,7 +222,7 @@ Record convergence_record(const StepReport<dim> &step)
   Record record;
   for (const Record &part :
        {solution_record(step), contact_record(step), coulomb_record(step), bound_record(step),
-        time_record(step), newton_record(step), probe_record(step)})
+        time_record(step), newton_record(step), equilibrated_record(step), probe_record(step)})
     record.insert(record.end(), part.begin(), part.end());
   return record;
 }

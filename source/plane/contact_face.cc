@@ -64,6 +64,12 @@ const ContactSegment<dim> &ContactFace<dim>::segment(const double s) const
 }
 
 template <int dim>
+double ContactFace<dim>::limit_at(const double s) const
+{
+  return limit ? limit(s) : friction_bound(point(s));
+}
+
+template <int dim>
 double ContactFace<dim>::friction_bound(const Point<dim> &x) const
 {
   return condition->friction.bound_at(x);

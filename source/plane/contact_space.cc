@@ -190,6 +190,27 @@ std::vector<FrictionCones::Cone> ContactSpace<dim>::cones() const
 }
 
 template <int dim>
+ContactSpace<dim> ContactSpace<dim>::under(const std::vector<std::function<double(double)>> &limits,
+                                           const Vector<double> &z,
+                                           const ShapeTables<dim> &tables) const
+{
+  ContactSpace<dim> result(*this);
+  for (unsigned int i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i].kind == Kind::friction)
+      result.unknowns[i].friction = {bound(i, z), 0.};
+  for (unsigned int k = 0; k < contact_faces.size(); ++k)
+    if (limits[k])
+    {
+      ContactFace<dim> &face = result.contact_faces[k];
+      const unsigned int n = std::max(face.degree + 1, face.n_points);
+      face.limit = limits[k];
+      face.friction = make_friction_rule(limits[k], tables.gauss(n),
+                                         face.degree + std::max(1U, face.n_points) - 1);
+    }
+  return result;
+}
+
+template <int dim>
 double ContactSpace<dim>::bound(const unsigned int unknown, const Vector<double> &z) const
 {
   const ContactMultiplier<dim> &own = unknowns[unknown];

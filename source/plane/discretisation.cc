@@ -37,6 +37,11 @@ std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
 {
   if (const std::string why = hpvi::no_error_bound(scene); !why.empty())
     return why;
+  const bool has_given_tractions =
+      !unmatched_joint(contact_space).empty() || has_oblique_contact(contact_space);
+  if (scene.has_coulomb_friction() && has_given_tractions)
+    return "under Coulomb's law meshes of two bodies have to match, and contact has to be along "
+           "the normal";
   return past.empty() ? unbounded_joint(contact_space)
                       : "friction acts on increments after the first load step";
 }
@@ -44,7 +49,7 @@ std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
 template <int dim>
 void Spaces<dim>::keep_bound(const Scene<dim> &scene, Refinement &refinement) const
 {
-  if (scene.error_bound && no_error_bound(scene).empty())
+  if (scene.error_bound && !scene.has_coulomb_friction() && no_error_bound(scene).empty())
     keep_matching(contact_space, *mesh, refinement);
 }
 

@@ -143,8 +143,11 @@ template <int dim>
 std::string no_error_bound(const Scene<dim> &scene)
 {
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.has_contact() && boundary.friction.knows_pressure())
-      return boundary.friction.name() + " minimises no energy";
+    if (boundary.has_contact() && boundary.friction.knows_pressure() &&
+        (dim == 3 || !boundary.is_unilateral()))
+      return boundary.friction.name() + (dim == 3 ? " minimises no energy"
+                                                  : " on bilateral contact has no bound, for what "
+                                                    "pulls has no friction");
   if (scene.is_axisymmetric())
     return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
   if (scene.adaptivity.start_degree < 2)
@@ -166,7 +169,8 @@ void match_nested(const Scene<dim> &scene, const ShapeTables<dim> &tables,
         nested_cells(ContactSpace<dim>(scene, space, tables), triangulation.n_active_cells()),
         degrees};
   };
-  bool matches = !scene.has_pairs() || !scene.error_bound || !no_error_bound(scene).empty();
+  bool matches = !scene.has_pairs() || !scene.error_bound || scene.has_coulomb_friction() ||
+                 !no_error_bound(scene).empty();
   while (!matches)
   {
     const Refinement refinement = next();

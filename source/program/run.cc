@@ -42,7 +42,9 @@ template <int dim>
 void print_table_head(const Scene<dim> &scene, const bool is_primal)
 {
   std::cout << "errors in parts of the solution, by energy norms: indicator (guarantees nothing)"
-            << (has_bound_column(scene, is_primal) ? ", bound (guaranteed)" : "")
+            << (!has_bound_column(scene, is_primal) ? ""
+                : scene.has_coulomb_friction()      ? ", bound (if the coupling is as estimated)"
+                                                    : ", bound (guaranteed)")
             << (scene.has_known_solution() ? ", true_error" : "") << '\n'
             << "step  elements  dofs_free multipliers  p  indicator"
             << (has_bound_column(scene, is_primal) ? "     bound" : "")
@@ -176,7 +178,8 @@ template <int dim>
 void Ending::hear(const StepReport<dim> &step)
 {
   times += step.times;
-  reason = stop_reason(step.stopped_by, step.scene.adaptivity, bool(step.bound));
+  reason = stop_reason(step.stopped_by, step.scene.adaptivity, bool(step.bound),
+                       step.bound && step.bound->kind != BoundKind::energy);
   warnings = texts(step.warnings);
   if (step.bound)
     last_bound = "that of step " + text(step.number) + " is " + text(step.relative_bound, 2) +

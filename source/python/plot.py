@@ -134,7 +134,10 @@ def draw_convergence(result, axes):
     if not table:
         raise ValueError("plot(\"convergence\"): no step is finished")
     last = table["load_step"] == table["load_step"][-1] if "load_step" in table else slice(None)
+    depends = np.isfinite(table["coupling"]).any()  # of Coulomb's law
     for column, words in ERRORS.items():
+        if depends and column == "error_bound_relative":
+            words = "bound, if the coupling is as estimated"
         values = table[column][last]
         known = np.isfinite(values)  # not each step need have its bound
         if known.any():

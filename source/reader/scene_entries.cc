@@ -152,7 +152,9 @@ void add_method_entries(std::vector<Entry> &entries)
         "none is guaranteed. residual: the relative indicator eta/((2 mu)^(1/2) |u_N|_a), with "
         "2 mu + 2 lambda for 2 mu where nu < 0. normal_resultant, friction_resultant, NAME_ux or "
         "NAME_uy of a Probe NAME, or NAME for both: the half-width of its guaranteed interval over "
-        "its value; where it has none a warning says why, and other limits end the run."}});
+        "its value; where it has none a warning says why, and other limits end the run. "
+        "error_estimate_equilibrated: the bound without the factor that Coulomb's law makes, an "
+        "estimate where no bound is known."}});
 }
 
 void add_loading_entries(std::vector<Entry> &entries)
@@ -253,8 +255,10 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Error", "Bound", "true", one_of({"true", "false", "last step"}),
         "true, false or last step",
         "Compute the guaranteed bound of the error, where there is one (doc/bound.md). true: of "
-        "each step; on meshes of files and where cells are no parallelograms it takes longer than "
-        "the step itself, and a file that does not name it has last step there. last step: of the "
+        "each step; on meshes of files, where cells are no parallelograms and under Coulomb's law "
+        "it "
+        "takes longer than the step itself, and a file that does not name it has last step there. "
+        "last step: of the "
         "last one alone, which saves most of its time; cells are "
         "marked by Indicator = residual then, and where Tolerance on asks for the bound or an "
         "interval the first step has it, too, and those that may meet the tolerance by their "

@@ -307,15 +307,20 @@ void read_body_force(const Parameters &parameters, const std::optional<double> t
   scene.body_force_of_material.clear();
 }
 
-/** Where cells are no parallelograms the bound takes longer than the step: a file that does not name it has it of the last step. */
+/**
+ * Where cells are no parallelograms, and under laws that know the pressure, the bound takes longer than the step: a file that does not name it has it
+ * of the last step.
+ */
 void choose_bound(const Parameters &parameters, Scene<2> &scene)
 {
   if (parameters.boolean("Error", "Bound on distorted cells"))
     scene.remarks.push_back("Error/Bound on distorted cells has no effect any more: cells of any "
                             "shape have a bound, where Error/Bound names nothing in the last step");
   const bool names_indicator = parameters.is_named("Adaptivity", "Indicator");
-  const bool is_of_file = scene.geometry.has_mesh() && scene.geometry.bodies.empty();
-  if (parameters.is_named("Error", "Bound") || (scene.geometry.has_affine_cells() && !is_of_file) ||
+  const bool is_of_file = scene.geometry.has_mesh() && scene.geometry.bodies.empty(),
+             is_cheap =
+                 scene.geometry.has_affine_cells() && !is_of_file && !scene.has_coulomb_friction();
+  if (parameters.is_named("Error", "Bound") || is_cheap ||
       (names_indicator && scene.adaptivity.indicator == Indicator::bound))
     return;
   scene.error_bound_last = true;
@@ -340,8 +345,6 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   read_method(*parameters, scene);
   read_body_force(*parameters, t, scene);
   if constexpr (dim == 2)
-    choose_bound(*parameters, scene);
-  if constexpr (dim == 2)
     read_initial_strains(*parameters, t, scene);
   if constexpr (dim == 2)
     scene.exact_solution =
@@ -361,6 +364,8 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
       read_boundary(*parameters, t, scene, boundary);
   read_probes(*parameters, names.probes, scene);
   scene.reference_solution = parameters->text("Error", "Reference solution");
+  if constexpr (dim == 2)
+    choose_bound(*parameters, scene);
   return scene;
 }
 

@@ -35,7 +35,7 @@ invalid "Probe energy/At = 1, 1" "column of convergence.csv" -- "Probe energy/At
 invalid "Probe bound/On = top" "Adaptivity/Tolerance on" -- "Probe bound/On=top"
 invalid "Probe seconds_qp/From = 1, 1" "column of convergence.csv" -- "Probe seconds_qp/From=1, 1" "Probe seconds_qp/To=1, 2"
 invalid "Probe tip_ux/At = 1, 2" "column of Probe tip" -- "Probe tip/At=1, 1" "Probe tip_ux/At=1, 2"
-invalid "Adaptivity/Tolerance on = tip" "neither an error" "residual, bound, normal_resultant and friction_resultant" -- "Adaptivity/Tolerance on=tip"
+invalid "Adaptivity/Tolerance on = tip" "neither an error" "residual, bound, error_estimate_equilibrated, normal_resultant and friction_resultant" -- "Adaptivity/Tolerance on=tip"
 invalid "Adaptivity/Tolerance on = tip_s1" "tip, tip_ux and tip_uy" -- "Probe tip/At=1, 1" "Adaptivity/Tolerance on=tip_s1"
 invalid "Adaptivity/Tolerance on = friction_resultant" "it has 2" -- "Boundary top/Contact=bilateral" "Adaptivity/Tolerance on=friction_resultant"
 invalid "Adaptivity/Tolerance on = energy" "neither an error" -- "Adaptivity/Tolerance on=energy"

@@ -171,6 +171,31 @@ TEST(CoulombProofs, IndicatorFollowsTheError)
       }
 }
 
+/** So is the bound, and never below it; Hertz's gap is no polynomial, which coarse edges miss too much of. */
+TEST(CoulombProofs, BoundFollowsTheError)
+{
+  for (Scene<2> scene : {sliding_hertz(), pressed_stick_slip(Contact::unilateral)})
+  {
+    scene.adaptivity.method = Method::hpa3;
+    scene.adaptivity.start_degree = 3;
+    scene.adaptivity.maximum_steps = 9;
+    unsigned int n_bounds = 0;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          if (!step.bound)
+            return;
+          ++n_bounds;
+          EXPECT_EQ(step.bound->kind, BoundKind::coupling);
+          EXPECT_NEAR(step.bound->coupling, 0.37, 0.03);
+          EXPECT_GT(step.bound->estimate, step.errors.energy);
+          EXPECT_GT(step.bound->total, step.errors.energy);
+          EXPECT_LT(step.bound->total, 2.3 * step.errors.energy);
+        });
+    EXPECT_GE(n_bounds, 4u);
+  }
+}
+
 /** `|max(|z_t| - mu_f max(z_n, 0), 0)|^2` of random tractions, by polynomials through the Gauss points. */
 TEST(CoulombProofs, IndicatorHoldsExcessOfFriction)
 {

@@ -49,6 +49,10 @@ public:
   /** w, as Unknowns counts them; behind those the coefficients of edge bubbles. */
   const dealii::Vector<double> &unknowns() const;
 
+  /** Along a face U_t, and U_n - u_0 where contact is unilateral, for U = u_N - w [length]. */
+  const EdgePolynomial &slip(unsigned int face) const;
+  const EdgePolynomial &penetration_along(unsigned int face) const;
+
   /** How far u_N - w passes through the foundation because supports keep it there [length]; else 0. */
   double penetration() const;
 
@@ -60,6 +64,7 @@ public:
 private:
   std::vector<double> face_gaps, uncorrected, cell_energies;
   dealii::Vector<double> w;
+  std::vector<EdgePolynomial> slips, penetrations; ///< by face
   double depth = 0, jump = 0;
 };
 

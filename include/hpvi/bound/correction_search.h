@@ -62,6 +62,10 @@ public:
   /** The best one, from one that is known. */
   Candidate best(Candidate result) const;
 
+  /** Along a face u_Nt - w_t, and u_Nn - w_n - u_0 where contact is unilateral; else zero. */
+  EdgePolynomial slip(unsigned int face, const dealii::Vector<double> &w) const;
+  EdgePolynomial penetration_along(unsigned int face, const dealii::Vector<double> &w) const;
+
   /** |w|_a^2 by cell, each with the springs on its edges. */
   std::vector<double> energies(const dealii::Vector<double> &w) const;
 

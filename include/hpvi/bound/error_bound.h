@@ -6,12 +6,27 @@
 #include <hpvi/bound/edge_traction.h>
 #include <hpvi/bound/mixed_problem.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace hpvi
 {
+/** What is bounded, and on which terms. */
+enum class BoundKind
+{
+  energy,   ///< the error, guaranteed
+  coupling, ///< that of every solution of Coulomb's law, if the coupling is no more than it says
+  zones,    ///< the same of a solution that sticks and slips where it says
+  estimate  ///< nothing: Tresca's bound for the same stress
+};
+
+/** As in `bound_kind`: "energy", "coupling", "zones", "estimate". */
+std::string text(BoundKind kind);
+
+class CoulombBounds;
+
 /**
  * A guaranteed bound of the error of u_N against the solution u of the variational inequality. With a
  * stress s in equilibrium, friction -g lam*, |lam*| <= 1, along the contact, and a pressure pi >= 0 where that
@@ -33,6 +48,14 @@ namespace hpvi
  */
 struct ErrorBound
 {
+  BoundKind kind = BoundKind::energy;
+  double coupling = std::numeric_limits<double>::quiet_NaN(); ///< theta, of kinds but energy [-]
+  std::string zones; ///< of BoundKind::zones: what is assumed of the solution, in words
+  std::string why;   ///< of BoundKind::estimate: why there is no bound
+
+  /** Without the factor that the coupling makes; total where the law has no coupling, and where there is no bound. */
+  double estimate = 0;
+
   double total = 0;       ///< of |u - u_N|_a, (stress length^dim)^{1/2}
   double stress = 0;      ///< eta
   double slip = 0;        ///< (2 gap(u_N - w) + |w|_a^2)^{1/2}
@@ -77,6 +100,9 @@ struct ErrorBound
 class ErrorBounds
 {
 public:
+  ErrorBounds();
+  ~ErrorBounds();
+
   /**
    * no_error_bound() must be empty. @p factor: that of the discretisation, if it is at hand; @p hysteresis:
    * ErrorBound::hysteresis of the step before.
@@ -101,6 +127,7 @@ private:
 
   EquilibrationCache cache;
   EdgeBubbles bubbles;
+  std::unique_ptr<CoulombBounds> coulomb;
   std::unique_ptr<MixedProblem> mixed; ///< where a material is nearly incompressible
 };
 } // namespace hpvi

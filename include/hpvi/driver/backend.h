@@ -74,6 +74,8 @@ struct BoundOfStep
   double imbalance = std::numeric_limits<double>::quiet_NaN();
   /** Where the least J(u) is bounded from above alone, by this; NaN: it is not. */
   double energy_high = std::numeric_limits<double>::quiet_NaN();
+  std::optional<ErrorBound> estimate =
+      std::nullopt; ///< of BoundKind::estimate, where there is no bound
 };
 
 /** u_N and the multiplier as numbers that do not depend on how many processes found them. */

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,16 @@ struct StepReport
   double scaled_estimate = 0;
   double relative_estimate = 0; ///< scaled_estimate / |u_N|_a: the relative indicator
   double relative_bound = 0;    ///< ErrorBound::total / |u_N|_a, NaN without it
+
+  /** Where there is a bound or, in its place, an estimate: */
+  struct Equilibrated
+  {
+    double norm = std::numeric_limits<double>::quiet_NaN();     ///< ErrorBound::estimate
+    double relative = std::numeric_limits<double>::quiet_NaN(); ///< over |u_N|_a
+    double coupling = std::numeric_limits<double>::quiet_NaN(); ///< ErrorBound::coupling
+    std::string kind, zones; ///< text(BoundKind), ErrorBound::zones
+  };
+  Equilibrated equilibrated{};
   Energies energies{};
   std::vector<ContactState<dim>>
       contact{};           ///< of each contact boundary, by id; the first process's

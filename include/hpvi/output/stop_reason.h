@@ -9,8 +9,9 @@
 
 namespace hpvi
 {
-/** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without. */
-std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivity, bool has_bound);
+/** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without; @p by_coupling: one of Coulomb's law. */
+std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivity, bool has_bound,
+                        bool by_coupling);
 } // namespace hpvi
 
 #endif

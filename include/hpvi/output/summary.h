@@ -52,7 +52,8 @@ struct Summary
   /** As JSON, of the last step, where stopped_by names what ended the run: */
   struct Ending
   {
-    std::string error_bound = "null", no_error_bound = "null"; ///< or the reason
+    std::string error_bound = "null", no_error_bound = "null";        ///< or the reason
+    std::string estimate = "null", coupling = "null", zones = "null"; ///< StepReport::Equilibrated
     std::string forces = "null", balance = "null", contact = "null", von_mises = "null",
                 plates = "null", largest_displacement = "null",
                 no_intervals = "null"; ///< or why forces and probes have none

@@ -11,6 +11,7 @@
 #include <hpvi/plane/mortar_segmentation.h>
 #include <hpvi/solvers/friction_cones.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -100,12 +101,16 @@ struct ContactFace
   /** At a Gauss-Lobatto node with the normal of the curve that the edge follows: neighbours agree on it. */
   ContactFrame<dim> node_frame(double s) const;
 
+  /** At s in [0,1] what stands in the place of friction_bound(); null: that does. See ContactSpace::under(). */
+  std::function<double(double)> limit = {};
+
   /** int psi_i of the Lagrange basis at Gauss points of the face [length^(dim-1)]. */
   double basis_integral(const dealii::QGauss<1> &points, unsigned int i) const;
 
   double friction_bound(const dealii::Point<dim> &x) const;       ///< FrictionLaw::bound_at()
   double friction_coefficient(const dealii::Point<dim> &x) const; ///< likewise
-  double friction_without_pressure() const;                       ///< int limit(0)
+  double limit_at(double s) const;          ///< that, or what stands in its place, at s in [0,1]
+  double friction_without_pressure() const; ///< int limit(0)
   double past_slip(const dealii::Point<dim> &x) const; ///< u_t(x) from which slip is counted
 };
 
@@ -181,6 +186,13 @@ public:
   /** Throws InputError where a prescribed displacement contradicts the gap at a node. */
   ContactSpace(const Scene<dim> &scene, const DisplacementSpace<dim> &displacement_space,
                const ShapeTables<dim> &tables, const PastSlip<dim> &past = {});
+
+  /**
+   * The same space where friction knows no pressure: on each face the function of s in [0,1] is the limit, and at the
+   * unknowns that which @p z has.
+   */
+  ContactSpace under(const std::vector<std::function<double(double)>> &limits,
+                     const dealii::Vector<double> &z, const ShapeTables<dim> &tables) const;
 
   /** Faces along the boundary: one contact boundary after the other, each sorted by position. */
   const std::vector<ContactFace<dim>> &faces() const;

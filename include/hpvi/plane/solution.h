@@ -22,9 +22,18 @@ struct Solution
   {
   }
 
+  /** The same values where contact is @p other, which has the same unknowns, in the place of that of the spaces. */
+  Solution(const Solution &solution, std::shared_ptr<const ContactSpace<dim>> other)
+      : scene(solution.scene), spaces(solution.spaces), own_contact(std::move(other)),
+        displacement_space(spaces->displacement_space), contact_space(*own_contact),
+        tables(*spaces->tables), u(solution.u), z(solution.z)
+  {
+  }
+
   const Scene<dim> &scene;
   const std::shared_ptr<const Spaces<dim>> spaces;
-  const DisplacementSpace<dim> &displacement_space; ///< of spaces, like all below
+  const std::shared_ptr<const ContactSpace<dim>> own_contact; ///< null: that of the spaces
+  const DisplacementSpace<dim> &displacement_space;           ///< of spaces, like tables
   const ContactSpace<dim> &contact_space;
   const ShapeTables<dim> &tables;
   dealii::Vector<double> u; ///< all displacement unknowns, constrained ones included [length]

@@ -78,6 +78,9 @@ enum class Indicator
   bound     ///< ErrorBound
 };
 
+/** An error that `Tolerance on` may name beside those of Indicator: ErrorBound::estimate. */
+constexpr const char *equilibrated_estimate = "error_estimate_equilibrated";
+
 /** The degree of the coarse mesh with which the thesis starts @p method. */
 unsigned int own_start_degree(Method method);
 

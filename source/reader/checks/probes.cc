@@ -73,6 +73,9 @@ const std::set<std::string> own_columns = {"step",
                                            "bound_oscillation",
                                            "bound_data",
                                            "bound_imbalance",
+                                           "error_estimate_equilibrated",
+                                           "coupling",
+                                           "bound_kind",
                                            "load_step",
                                            "t",
                                            "newton_steps",
@@ -252,7 +255,7 @@ void check_tolerance_column(const Scene<dim> &scene)
   if (column.empty())
     return;
   const std::vector<std::string> contact = {"normal_resultant", "friction_resultant"};
-  std::vector<std::string> known{"residual", "bound"};
+  std::vector<std::string> known{"residual", "bound", equilibrated_estimate};
   if (n_contacts(scene) == 1)
     known.insert(known.end(), contact.begin(), contact.end());
   else if (std::find(contact.begin(), contact.end(), column) != contact.end())

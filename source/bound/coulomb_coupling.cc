@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/algebra/triangular.h>
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
+#include <hpvi/bound/coulomb_coupling.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** What spaces of degrees p + 1 still miss of theta: a percent or two, as a rule. */
+constexpr double margin = 1.05;
+
+/** Stiffness against tractions that would push along a free motion, over the largest of S. */
+constexpr double hold = 1e5;
+
+/** An edge of the boundary at one of its vertices. */
+struct BoundaryEdge
+{
+  const BoundaryCondition<2> *condition;
+  Tensor<1, 2> normal;
+  Point<2> vertex;
+};
+
+using EdgesAtVertices = std::map<unsigned int, std::vector<BoundaryEdge>>;
+
+EdgesAtVertices edges_at_vertices(const Solution<2> &solution)
+{
+  EdgesAtVertices result;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    for (const unsigned int f : cell->face_indices())
+      if (cell->face(f)->at_boundary() &&
+          cell->face(f)->boundary_id() < solution.scene.boundaries.size())
+        for (unsigned int end = 0; end < 2; ++end)
+          result[cell->face(f)->vertex_index(end)].push_back(
+              {&solution.scene.boundaries[cell->face(f)->boundary_id()],
+               map_of<2>(cell).normal(f, point_on_face<2>(f, Point<1>(end))),
+               cell->face(f)->vertex(end)});
+  return result;
+}
+
+/** Directions along which displacements vanish at an edge of the boundary: of v, or of the X with given traces. */
+std::vector<Tensor<1, 2>> held_directions(const BoundaryEdge &edge, const bool of_X)
+{
+  const BoundaryCondition<2> &condition = *edge.condition;
+  const Tensor<1, 2> tangent = -cross_product_2d(edge.normal);
+  std::vector<Tensor<1, 2>> result;
+  for (unsigned int c = 0; c < 2; ++c)
+    if (condition.displacement[c] || condition.plate)
+      result.push_back(Point<2>::unit_vector(c));
+  const bool is_bilateral = condition.has_contact() && !condition.is_unilateral();
+  if (condition.holds_normal() || is_bilateral ||
+      (of_X && condition.is_unilateral() && !condition.friction.knows_pressure()))
+    result.push_back(edge.normal);
+  if (condition.is_tied() || (of_X && condition.has_contact() && condition.friction))
+    result.push_back(tangent);
+  return result;
+}
+
+/** The angle of the body at a vertex. */
+std::map<unsigned int, double> angles_at_vertices(const Solution<2> &solution)
+{
+  std::map<unsigned int, double> result;
+  for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
+    if (cell->at_boundary())
+      for (unsigned int v = 0; v < 4; ++v)
+      {
+        const Tensor<1, 2> a = cell->vertex(v ^ 1U) - cell->vertex(v),
+                           b = cell->vertex(v ^ 2U) - cell->vertex(v);
+        result[cell->vertex_index(v)] += std::acos((a * b) / (a.norm() * b.norm()));
+      }
+  return result;
+}
+
+/** x := L' x, or L x, with L in the lower triangle. */
+void multiply_lower(const FullMatrix<double> &L, const bool transposed, Vector<double> &x)
+{
+  const unsigned int n = x.size();
+  Vector<double> y(n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+      y[transposed ? j : i] += L(i, j) * x[transposed ? i : j];
+  x = y;
+}
+
+/** L of a symmetric matrix; false: it is not positive definite. */
+bool factor(FullMatrix<double> &A)
+{
+  return A.m() == 0 || cholesky(A.m(), &A(0, 0), A.m());
+}
+
+/** B' A^-1 B, A positive definite. */
+FullMatrix<double> reduced(FullMatrix<double> A, const FullMatrix<double> &B)
+{
+  const unsigned int n = B.m(), m = B.n();
+  FullMatrix<double> result(m, m);
+  if (n == 0 || m == 0)
+    return result;
+  if (!factor(A)) // its lower triangle by columns is the upper one of deal.II's rows
+    throw NumericalFailure("the compliance of contact is not regular");
+  std::vector<double> Z(std::size_t(n) * m);
+  for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      Z[std::size_t(j) * n + i] = B(i, j);
+  solve_triangular('N', n, m, {&A(0, 0), n}, Z.data(), n);
+  multiply('T', 'N', m, m, n, 1., {Z.data(), n}, {Z.data(), n}, 0., &result(0, 0), m);
+  return result;
+}
+
+FullMatrix<double> part(const FullMatrix<double> &A, const std::vector<unsigned int> &rows,
+                        const std::vector<unsigned int> &columns)
+{
+  FullMatrix<double> result(rows.size(), columns.size());
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    for (unsigned int j = 0; j < columns.size(); ++j)
+      result(i, j) = A(rows[i], columns[j]);
+  return result;
+}
+
+/** The largest eigenvalue of a symmetric tridiagonal matrix, by bisection of Sturm's sequence. */
+double largest_of_tridiagonal(const std::vector<double> &diagonal,
+                              const std::vector<double> &beside)
+{
+  double low = diagonal[0], high = diagonal[0];
+  for (unsigned int i = 0; i < diagonal.size(); ++i)
+  {
+    const double radius = (i > 0 ? std::abs(beside[i - 1]) : 0.) +
+                          (i + 1 < diagonal.size() ? std::abs(beside[i]) : 0.);
+    low = std::max(low, diagonal[i]);
+    high = std::max(high, diagonal[i] + radius);
+  }
+  for (unsigned int step = 0; step < 200 && high - low > 1e-14 * std::abs(high); ++step)
+  {
+    const double x = 0.5 * (low + high);
+    bool is_above = false;
+    double pivot = 1;
+    for (unsigned int i = 0; i < diagonal.size() && !is_above; ++i)
+    {
+      const double square = i > 0 ? beside[i - 1] * beside[i - 1] : 0.;
+      pivot = diagonal[i] - x - (i > 0 ? square / pivot : 0.);
+      if (pivot == 0.)
+        pivot = -std::numeric_limits<double>::min();
+      is_above = pivot > 0.;
+    }
+    (is_above ? low : high) = x;
+  }
+  return high;
+}
+} // namespace
+
+double half_plane_coupling(const Material &material)
+{
+  if (material.orthotropy)
+    return 1.;
+  const double kappa = material.kolosov(), beta = (kappa - 1) / (kappa + 1);
+  return 1. / std::sqrt(1. - beta * beta);
+}
+
+double free_wedge_coupling(const double angle)
+{
+  const double tt = angle / 2 + std::sin(2 * angle) / 4, nn = angle / 2 - std::sin(2 * angle) / 4,
+               tn = std::pow(std::sin(angle), 2) / 2;
+  return nn / std::sqrt(tt * nn - tn * tn);
+}
+
+// Lanczos' method on K' D Y D K with C = K K', whole sequence kept orthogonal: S has some hundred rows.
+double largest_eigenvalue(const FullMatrix<double> &C, const Vector<double> &D,
+                          const FullMatrix<double> &Y)
+{
+  const unsigned int n = D.size();
+  if (n == 0 || D.all_zero())
+    return 0.;
+  FullMatrix<double> K(C);
+  if (!factor(K))
+    throw NumericalFailure("the compliance of contact is not regular");
+  for (unsigned int i = 0; i < n; ++i) // of columns
+    for (unsigned int j = 0; j < i; ++j)
+      K(i, j) = K(j, i);
+  Vector<double> q(n), y(n);
+  for (unsigned int i = 0; i < n; ++i)
+    q[i] = 1. + 0.3 * std::sin(7. * i + 1.);
+  q /= q.l2_norm();
+  std::vector<Vector<double>> basis;
+  std::vector<double> diagonal, beside;
+  double value = 0;
+  for (unsigned int step = 0; step < n; ++step)
+  {
+    basis.push_back(q);
+    multiply_lower(K, false, q);
+    q.scale(D);
+    Y.vmult(y, q);
+    y.scale(D);
+    multiply_lower(K, true, y);
+    q = y;
+    diagonal.push_back(q * basis.back());
+    for (unsigned int twice = 0; twice < 2; ++twice)
+      for (const Vector<double> &known : basis)
+        q.add(-(q * known), known);
+    const double before = std::exchange(value, largest_of_tridiagonal(diagonal, beside)),
+                 norm = q.l2_norm();
+    if (norm <= 1e-12 * value || (step > 10 && value - before <= 1e-9 * value && step % 5 == 0))
+      break;
+    beside.push_back(norm);
+    q /= norm;
+  }
+  return value;
+}
+
+CoulombCoupling::CoulombCoupling(const Solution<2> &solution, CondensedElements<2> &elements)
+    : solution(solution)
+{
+  Degrees degrees = solution.displacement_space.degrees();
+  for (auto &degree : degrees)
+    ++degree;
+  spaces = std::make_shared<const Spaces<2>>(solution.scene, solution.spaces->mesh, degrees,
+                                             solution.spaces->tables, solution.spaces->loads);
+  const Discretisation<2> discretisation(solution.scene, spaces, elements);
+  const LinearSolver solver = discretisation.factor();
+  const SchurComplement reduction(solver, discretisation.system.f, discretisation.contact_rows);
+  const unsigned int n = spaces->contact_space.n_multipliers();
+  S.reinit(n, n);
+  double scale = 0;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    for (unsigned int j = 0; j < n; ++j)
+      S(i, j) = reduction.S()(i, j);
+    scale = std::max(scale, S(i, i));
+  }
+  if (!discretisation.free_motions)
+    return;
+  // Tractions that push along a free motion have no finite compliance.
+  const FullMatrix<double> &G = discretisation.free_motions->balance().G;
+  for (unsigned int m = 0; m < G.n(); ++m)
+  {
+    double most = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      most = std::max(most, std::abs(G(i, m)));
+    for (unsigned int i = 0; most > 0. && i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        S(i, j) += hold * scale * (G(i, m) / most) * (G(j, m) / most);
+  }
+}
+
+double CoulombCoupling::of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks) const
+{
+  const ContactSpace<2> &space = spaces->contact_space;
+  const std::vector<ContactMultiplier<2>> &multipliers = space.multipliers();
+  if (space.faces().size() != chi.size())
+    throw NumericalFailure("contact has other faces at higher degrees");
+  std::vector<unsigned int> F, P, held;
+  std::vector<double> d;
+  std::vector<bool> is_taken(multipliers.size());
+  for (unsigned int k = 0; k < chi.size(); ++k)
+  {
+    const ContactFace<2> &face = space.faces()[k];
+    for (unsigned int i = 0; chi[k] && i < face.n_multipliers; ++i)
+    {
+      const unsigned int t = face.first_multiplier + i, n = multipliers[t].partner;
+      if (!sticks.empty() && sticks[k])
+      {
+        held.push_back(t);
+        is_taken[t] = true;
+        continue;
+      }
+      const double s = spaces->tables->gauss(face.n_multipliers).point(i)[0];
+      if (n == numbers::invalid_unsigned_int)
+        continue;
+      F.push_back(t);
+      P.push_back(n);
+      d.push_back(face.friction_coefficient(face.point(s)) * chi[k](s));
+      is_taken[t] = true;
+    }
+  }
+  for (unsigned int i = 0; i < multipliers.size(); ++i)
+    if (multipliers[i].is_bilateral && !is_taken[i])
+      held.push_back(i);
+  if (F.empty())
+    return 0.;
+  FullMatrix<double> C = part(S, F, F), E(S.m(), P.size());
+  if (!held.empty())
+    C.add(-1., reduced(part(S, held, held), part(S, held, F)));
+  for (unsigned int j = 0; j < P.size(); ++j)
+    E(P[j], j) = 1.;
+  return std::sqrt(
+      std::max(0., largest_eigenvalue(C, Vector<double>(d.begin(), d.end()), reduced(S, E))));
+}
+
+double CoulombCoupling::closed_forms(const SlipDirection &chi,
+                                     const std::vector<bool> &sticks) const
+{
+  const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
+  const EdgesAtVertices edges = edges_at_vertices(solution);
+  const std::map<unsigned int, double> angles = angles_at_vertices(solution);
+  double result = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    if (!chi[k] || (!sticks.empty() && sticks[k]))
+      continue;
+    const auto at = [&](const double s)
+    { return std::abs(chi[k](s)) * faces[k].friction_coefficient(faces[k].point(s)); };
+    const bool is_pair =
+        !faces[k].segments.empty(); // between like bodies theta is 1, else less than each
+    const double half_plane =
+        is_pair ? 1. : half_plane_coupling(solution.scene.material_of(faces[k].cell));
+    for (unsigned int i = 0; i <= 8; ++i)
+      result = std::max(result, half_plane * at(i / 8.));
+    for (unsigned int end = 0; end < 2 && !is_pair; ++end)
+    {
+      const unsigned int vertex = faces[k].cell->face(faces[k].face_no)->vertex_index(end);
+      const auto found = edges.find(vertex);
+      if (found == edges.end() || found->second.size() != 2)
+        continue;
+      for (const BoundaryEdge &edge : found->second)
+        if (edge.condition != faces[k].condition && held_directions(edge, true).empty())
+          result = std::max(result, at(end) * free_wedge_coupling(angles.at(vertex)));
+    }
+  }
+  return result;
+}
+
+std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
+                                          const std::vector<bool> &sticks) const
+{
+  const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
+  const EdgesAtVertices edges = edges_at_vertices(solution);
+  const double near = 1e-9 * solution.scene.geometry.diameter();
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    if (!chi[k] || (!sticks.empty() && sticks[k]))
+      continue;
+    for (unsigned int end = 0; end < 2; ++end)
+    {
+      const Point<2> x = faces[k].point(end);
+      if (std::abs(chi[k](end)) * faces[k].friction_coefficient(x) < 1e-8)
+        continue;
+      const ContactFrame<2> frame = faces[k].frame(end);
+      const auto is_bad = [&](const std::vector<BoundaryEdge> &around)
+      {
+        bool X_vanishes = false;
+        Tensor<1, 2> first;
+        bool v_vanishes = false;
+        for (const BoundaryEdge &edge : around)
+        {
+          for (const Tensor<1, 2> &direction : held_directions(edge, true))
+            X_vanishes = X_vanishes || std::abs(direction * frame.normal) > 1e-6;
+          for (const Tensor<1, 2> &direction : held_directions(edge, false))
+          {
+            v_vanishes =
+                v_vanishes || std::abs(direction * frame.normal) < 1e-6 ||
+                (first.norm() > 0. && std::abs(cross_product_2d(first) * direction) > 1e-6);
+            first = direction;
+          }
+        }
+        return X_vanishes && !v_vanishes;
+      };
+      bool is_here = false, all_are_bad = true;
+      for (const auto &[vertex, around] : edges)
+        if (around[0].vertex.distance(x) < near)
+        {
+          is_here = true;
+          all_are_bad = all_are_bad && is_bad(around);
+        }
+      if (is_here && all_are_bad)
+        return "contact with friction ends at " + to_string(x) +
+               ", where the body can slide but not lift, and no coupling is finite";
+    }
+  }
+  return {};
+}
+
+double CoulombCoupling::operator()(const SlipDirection &chi, const std::vector<bool> &sticks) const
+{
+  return std::max(margin * of_matrices(chi, sticks), closed_forms(chi, sticks));
+}
+} // namespace hpvi

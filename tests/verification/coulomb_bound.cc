@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The bound under Coulomb's law: theorem (C) against all solutions of small problems, the coupling against closed forms, scenes
+// against far finer runs.
+#include "discretisation.h"
+
+#include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/formatting.h>
+#include <hpvi/bound/coulomb_bound.h>
+#include <hpvi/bound/coulomb_coupling.h>
+#include <hpvi/results/stored_solution.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+namespace
+{
+using namespace verification;
+
+// ---------------------------------------------------------------- theorem (C), by enumeration
+
+/** `K u = f - (p, q)` with u_n <= 0, p >= 0, |q| <= mu p at n points: normal components first, then tangential ones. */
+struct SmallProblem
+{
+  unsigned int n;
+  FullMatrix<double> K, C; ///< C = K^-1
+  Vector<double> f;
+  double mu;
+
+  Vector<double> displacement(const Vector<double> &tractions) const
+  {
+    Vector<double> rest(f), u(2 * n);
+    rest -= tractions;
+    C.vmult(u, rest);
+    return u;
+  }
+
+  double norm(const Vector<double> &v) const
+  {
+    return std::sqrt(std::max(0., K.matrix_norm_square(v)));
+  }
+
+  std::vector<Vector<double>> solutions() const; ///< tractions of all, by 4^n states
+};
+
+std::vector<Vector<double>> SmallProblem::solutions() const
+{
+  std::vector<Vector<double>> result;
+  for (unsigned int states = 0; states < 1U << 2 * n; ++states)
+  {
+    std::vector<double> A(4 * n * n), t(2 * n); // by columns
+    const auto row = [&](const unsigned int i)
+    {
+      for (unsigned int j = 0; j < 2 * n; ++j)
+      {
+        A[j * 2 * n + i] = C(i, j);
+        t[i] += C(i, j) * f[j];
+      }
+    };
+    const auto state = [&](const unsigned int i) { return states >> 2 * i & 3U; };
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      if (state(i) == 0) // open
+        A[i * 2 * n + i] = A[(n + i) * 2 * n + n + i] = 1;
+      else
+      {
+        row(i);
+        if (state(i) == 1) // sticks
+          row(n + i);
+        else
+        {
+          A[(n + i) * 2 * n + n + i] = 1;
+          A[i * 2 * n + n + i] = state(i) == 2 ? -mu : mu;
+        }
+      }
+    }
+    const LuFactor factor(A, 2 * n);
+    if (factor.is_singular())
+      continue;
+    factor.solve(t);
+    const Vector<double> tractions(t.begin(), t.end()), u = displacement(tractions);
+    bool is_one = true;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double p = t[i], q = t[n + i];
+      is_one = is_one && u[i] <= 1e-9 && p >= -1e-9 && std::abs(q) <= mu * p + 1e-9 &&
+               (state(i) < 2 || u[n + i] * (state(i) == 2 ? 1. : -1.) >= -1e-9);
+    }
+    if (is_one)
+      result.push_back(tractions);
+  }
+  return result;
+}
+
+SmallProblem random_problem(std::mt19937 &random)
+{
+  std::normal_distribution<double> normal;
+  const auto one_of = [&](const std::vector<double> &values)
+  { return values[random() % values.size()]; };
+  SmallProblem result;
+  result.n = 1 + random() % 3;
+  const unsigned int m = 2 * result.n;
+  FullMatrix<double> G(m, m);
+  for (unsigned int i = 0; i < m; ++i)
+    for (unsigned int j = 0; j < m; ++j)
+      G(i, j) = normal(random);
+  result.K.reinit(m, m);
+  G.mTmult(result.K, G);
+  const double shift = one_of({0.05, 0.3, 1.});
+  result.f.reinit(m);
+  const double load = one_of({0.3, 1., 3.}), pressed = one_of({0., 1., 2.});
+  for (unsigned int i = 0; i < m; ++i)
+  {
+    result.K(i, i) += shift;
+    result.f[i] = load * normal(random) + (i < result.n ? pressed : 0.);
+  }
+  result.C.reinit(m, m);
+  result.C.invert(result.K);
+  result.mu = one_of({0.1, 0.3, 0.6, 1., 2., 3.});
+  return result;
+}
+
+/**
+ * Any U in K and admissible tractions, near to a solution or not: no solution is farther from U than the bound, which is
+ * sharp. Half of theta, no x_M or half of the gap fail here.
+ */
+TEST(CoulombBound, HoldsForAllSolutionsOfSmallProblems)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  double least = std::numeric_limits<double>::infinity(), least_coupling = least;
+  unsigned int n_distances = 0;
+  for (unsigned int trial = 0; trial < 3000; ++trial)
+  {
+    const SmallProblem problem = random_problem(random);
+    const unsigned int n = problem.n;
+    const std::vector<Vector<double>> all = problem.solutions();
+    for (unsigned int k = 0; !all.empty() && k < 6; ++k)
+    {
+      const Vector<double> &near = all[random() % all.size()], u = problem.displacement(near);
+      const double s = std::vector<double>{0., 1e-6, 1e-3, 0.03, 0.3, 1.}[random() % 6];
+      const bool moves_U = random() % 3 > 0, moves_p = random() % 5 > 0, moves_q = random() % 5 > 0;
+      Vector<double> tractions(near), U(u), chi(n), X(2 * n), coefficient(n);
+      double gap = 0;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const double pi = std::max(0., near[i] + (moves_p ? s * normal(random) : 0.)),
+                     tau = std::clamp(near[n + i] + (moves_q ? s * normal(random) : 0.),
+                                      -problem.mu * pi, problem.mu * pi);
+        tractions[i] = pi;
+        tractions[n + i] = tau;
+        U[i] = std::min(0., U[i] + (moves_U ? s * normal(random) : 0.));
+        U[n + i] += moves_U ? s * normal(random) : 0.;
+        chi[i] = pi > 0.                   ? tau / (problem.mu * pi)
+                 : random() % 2 && s == 0. ? (U[n + i] < 0. ? -1. : 1.)
+                                           : uniform(random);
+        const double against = problem.mu * (std::abs(U[n + i]) - chi[i] * U[n + i]);
+        X[i] = std::max(0., against + U[i]);
+        gap += pi * (X[i] - U[i]);
+        coefficient[i] = problem.mu * chi[i];
+      }
+      FullMatrix<double> C(n, n), Y(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          C(i, j) = problem.C(n + i, n + j);
+          Y(i, j) = problem.K(i, j);
+        }
+      const double theta = std::sqrt(std::max(0., largest_eigenvalue(C, coefficient, Y)));
+      Vector<double> rest = problem.displacement(tractions);
+      rest -= U;
+      const double bound = coulomb_bound(theta, {problem.norm(rest), gap, 0., problem.norm(X)});
+      if (s == 0. && X.all_zero() && all.size() > 1)
+        least_coupling = std::min(least_coupling, theta);
+      for (const Vector<double> &other : all)
+      {
+        Vector<double> e = problem.displacement(other);
+        e -= U;
+        if (const double distance = problem.norm(e); std::isfinite(bound) && distance > 1e-8)
+        {
+          ++n_distances;
+          least = std::min(least, bound / distance);
+        }
+      }
+    }
+  }
+  EXPECT_GT(n_distances, 5000u);
+  EXPECT_GE(least, 1. - 1e-9);
+  EXPECT_LT(least, 1.01); // sharp
+  EXPECT_GT(least_coupling, 2.);
+}
+
+/** Without friction it is Prager and Synge's with a gap; else (4 + theta^2)/(4 - theta^2) times A; from 2 on none. */
+TEST(CoulombBound, HasItsClosedForms)
+{
+  EXPECT_NEAR(coulomb_bound(0., {3., 0., 0., 0.}), 3., 1e-12);
+  EXPECT_LE(coulomb_bound(0., {3., 8., 0., 0.}), 5. * (1 + 1e-9));
+  EXPECT_LE(coulomb_bound(0., {3., 0., 4., 0.}), 5. * (1 + 1e-9));
+  for (const double theta : {0.3, 1., 1.6, 1.8})
+    EXPECT_NEAR(coulomb_bound(theta, {2., 0., 0., 0.}),
+                2. * (4 + theta * theta) / (4 - theta * theta), 1e-9);
+  EXPECT_TRUE(std::isinf(coulomb_bound(2., {1., 0., 0., 0.})));
+  EXPECT_TRUE(
+      std::isinf(coulomb_bound(0.5, {1., 0., 0., std::numeric_limits<double>::infinity()})));
+}
+
+// ---------------------------------------------------------------- the coupling
+
+TEST(Coupling, HasTheClosedFormsOfHalfPlaneAndWedge)
+{
+  EXPECT_NEAR(half_plane_coupling({1., 0.3, PlaneModel::strain}), 1.0435, 1e-4);
+  EXPECT_NEAR(half_plane_coupling({1., 0.45, PlaneModel::strain}), 1.0042, 1e-4);
+  EXPECT_NEAR(free_wedge_coupling(numbers::PI / 2), 1.2967, 1e-4);
+  EXPECT_NEAR(free_wedge_coupling(numbers::PI / 1.5), 1.325, 1e-3);
+  EXPECT_NEAR(free_wedge_coupling(numbers::PI), 1., 1e-12);
+}
+
+/** Half of a long block that slips under mu everywhere: 1.2967 mu from below at its free end, and linear in mu. */
+TEST(Coupling, GrowsToThatOfTheFreeEnd)
+{
+  const auto of = [](const double mu, const std::string &steps)
+  {
+    const Scene<2> scene =
+        shipped_scene("ssnv128", {{"Boundary bottom/Friction coefficient", text(mu)},
+                                  {"Adaptivity/Maximum steps", steps}});
+    double result = 0;
+    AdaptiveSolver<2>(scene).run(
+        [&](const StepReport<2> &step)
+        {
+          if (step.stopped_by.empty())
+            return;
+          const Solution<2> &solution = step.solution();
+          CondensedElements<2> elements(scene, solution.tables);
+          const SlipDirection chi(solution.contact_space.faces().size(),
+                                  [](const double) { return 1.; });
+          result = CoulombCoupling(solution, elements).of_matrices(chi);
+        });
+    return result;
+  };
+  const double coarse = of(0.2, "1"), fine = of(0.2, "8");
+  EXPECT_GT(fine, coarse);
+  EXPECT_GT(fine, 0.2 * 1.2);
+  EXPECT_LT(fine, 0.2 * 1.2967);
+  EXPECT_NEAR(of(0.1, "1"), coarse / 2, 1e-6 * coarse);
+}
+
+// ---------------------------------------------------------------- scenes
+
+struct Expected
+{
+  std::string scene;
+  unsigned int n_steps;
+  BoundKind kind; ///< of the last step
+  double most;    ///< bound/error, or estimate/error
+};
+
+/** Each step against a far finer run: bounds are above the error, so are estimates, and near it. */
+TEST(CoulombBound, HoldsAgainstFinerRuns)
+{
+  for (const auto &[name, n_steps, kind, most] : {Expected{"ssnv128", 6, BoundKind::coupling, 7.},
+                                                  {"punch-friction", 5, BoundKind::coupling, 2.},
+                                                  {"brake-pad", 5, BoundKind::coupling, 2.},
+                                                  {"key", 8, BoundKind::zones, 2.},
+                                                  {"slope", 5, BoundKind::zones, 3.1},
+                                                  {"retaining", 4, BoundKind::zones, 3.1},
+                                                  {"strut", 4, BoundKind::estimate, 2.5},
+                                                  {"punch-limited", 4, BoundKind::estimate, 2.5}})
+  {
+    SCOPED_TRACE(name);
+    const std::string file =
+        (std::filesystem::temp_directory_path() / (name + "-reference.dat")).string();
+    {
+      const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", text(n_steps + 6)},
+                                                  {"Adaptivity/hpa3 threshold", "0.1"},
+                                                  {"Error/Bound", "false"}});
+      AdaptiveSolver<2>(scene).run(
+          [&](const StepReport<2> &step)
+          {
+            if (step.stopped_by.empty())
+              return;
+            std::ofstream out(file);
+            write_solution(out, step.field, step.energies.energy);
+          });
+    }
+    const Scene<2> scene = shipped_scene(
+        name, {{"Adaptivity/Maximum steps", text(n_steps)}, {"Error/Reference solution", file}});
+    AdaptiveSolver<2>(scene).run(
+        [&, kind = kind, most = most](const StepReport<2> &step)
+        {
+          const double error = step.errors.energy;
+          EXPECT_GT(step.equilibrated.norm, error);
+          EXPECT_LT(step.equilibrated.norm, 2.5 * error);
+          EXPECT_TRUE(std::isnan(step.energy_high));
+          if (step.bound)
+          {
+            EXPECT_GT(step.bound->total, error);
+            EXPECT_LT(step.bound->total, most * error);
+            EXPECT_GE(step.bound->total,
+                      step.bound->estimate * (1 - 1e-2)); // its gap may be smaller
+          }
+          if (!step.stopped_by.empty())
+          {
+            EXPECT_EQ(step.equilibrated.kind, text(kind)) << step.no_bound;
+          }
+          EXPECT_EQ(step.equilibrated.zones.empty(), step.equilibrated.kind != "zones");
+          EXPECT_EQ(bool(step.bound), step.equilibrated.kind != "estimate");
+        });
+    std::filesystem::remove(file);
+  }
+}
+
+/** Two of the scenes as a body of nine times the thickness: three times the bound. */
+TEST(CoulombBound, CountsThickness)
+{
+  const auto of = [](const std::string &thickness)
+  {
+    std::vector<double> result;
+    AdaptiveSolver<2>(shipped_scene("brake-pad", {{"Adaptivity/Maximum steps", "1"},
+                                                  {"Material/Thickness", thickness}}))
+        .run(
+            [&](const StepReport<2> &step) {
+              result = {step.bound->total, step.equilibrated.norm, step.bound->estimate};
+            });
+    return result;
+  };
+  const auto thin = of("1"), thick = of("9");
+  for (unsigned int k = 0; k < 3; ++k)
+    EXPECT_NEAR(thick[k], 3 * thin[k], 1e-9 * thick[k]);
+}
+
+/** Friction that does not follow the pressure: cohesive with next to no mu_f has Tresca's bound. */
+TEST(CoulombBound, IsThatOfTrescaWithoutCoefficient)
+{
+  const auto of = [](const std::string &coefficient, const std::string &law)
+  {
+    double bound = 0, estimate = 0;
+    const Overrides scene = {{"Adaptivity/Maximum steps", "2"},
+                             {"Solver/Normal contact", "multiplier"},
+                             {"Boundary bottom/Friction bound", "0.3"},
+                             {"Boundary bottom/Friction coefficient", coefficient}};
+    AdaptiveSolver<2>(
+        shipped_scene("brake-pad",
+                      law.empty() ? scene : with(scene, {{"Boundary bottom/Friction law", law}})))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              bound = step.bound ? step.bound->total : -1.;
+              estimate = step.equilibrated.norm;
+            });
+    return std::pair{bound, estimate};
+  };
+  const auto tresca = of("", ""), cohesive = of("1e-12", "cohesive");
+  EXPECT_NEAR(cohesive.second, tresca.second, 1e-6 * tresca.second);
+  EXPECT_LE(cohesive.first, tresca.first * (1 + 1e-6));
+  EXPECT_GE(cohesive.first, tresca.first * 0.9);
+}
+
+/** tau = mu_f chi pi: at every point of a face the limit is mu_f times an admissible pressure, which need not be the discrete one. */
+TEST(CoulombBound, TakesTheLimitOfAnAdmissiblePressure)
+{
+  unsigned int n_moved = 0;
+  AdaptiveSolver<2>(
+      shipped_scene("ssnv128", {{"Adaptivity/Maximum steps", "5"}, {"Error/Bound", "false"}}))
+      .run(
+          [&](const StepReport<2> &step)
+          {
+            const Solution<2> &solution = step.solution();
+            const AdmissiblePressure<2> pressure(solution);
+            const Solution<2> law = under_admissible_limit(solution, pressure).value();
+            const AdmissibleFriction<2> friction(law);
+            const auto &faces = law.contact_space.faces();
+            double scale = 0;
+            for (const double z : solution.z)
+              scale = std::max(scale, std::abs(z));
+            for (unsigned int k = 0; k < faces.size(); ++k)
+              for (unsigned int i = 0; i < 50; ++i)
+              {
+                const double s = (i + 0.5) / 50, pi = pressure.value(k)(s);
+                EXPECT_GE(pi, -1e-12 * scale);
+                EXPECT_NEAR(faces[k].limit_at(s), std::max(0., pi), 1e-14 * scale); // mu_f = 1
+                EXPECT_LE(std::abs(friction.value(k, s)), 1 + 1e-12);
+                n_moved += std::abs(pi - solution.contact_space.pressure(faces[k], solution.z, s)) >
+                           1e-3 * scale;
+              }
+          });
+  EXPECT_GT(n_moved, 0u);
+}
+} // namespace
