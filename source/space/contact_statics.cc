@@ -251,7 +251,7 @@ std::vector<ContactSpot> ContactStatics::spots_of(const ContactDofFace<3> &face)
   return result;
 }
 
-/** Friction that has a largest value is counted where the mesh has it. */
+/** Friction that has a largest value is counted where the mesh has it: here its area is 0. */
 std::vector<ContactSpot> ContactStatics::ends_of(const ContactDofFace<3> &face) const
 {
   std::vector<ContactSpot> result;
@@ -259,10 +259,9 @@ std::vector<ContactSpot> ContactStatics::ends_of(const ContactDofFace<3> &face) 
   for (unsigned int v = 0; v < 4 && face.has_pressure(); ++v)
   {
     const Point<3> x = face.cell->face(face.face)->vertex(v);
-    FrictionLimit limit = boundary.friction ? boundary.friction.at(x) : FrictionLimit();
-    if (std::isfinite(limit.most))
-      limit = {};
-    result.push_back({x, face.axes.normal, limit, 0., true, !boundary.is_unilateral()});
+    result.push_back({x, face.axes.normal,
+                      boundary.friction ? boundary.friction.at(x) : FrictionLimit(), 0., true,
+                      !boundary.is_unilateral()});
   }
   return result;
 }
