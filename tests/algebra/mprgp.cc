@@ -357,6 +357,19 @@ TEST(Mprgp, ProportioningStopsAtTheWall)
   EXPECT_NEAR(z[1], 0.25, 1e-9);
 }
 
+/** A step of the fixed length 1.95/|S| does not move y beside round-off: walls are left by logic. */
+TEST(Mprgp, WallsAreLeftBesideALargeStiffness)
+{
+  QuadraticProgram qp{LAPACKFullMatrix<double>(2), vec({0., 0.5}), unit_box(2)};
+  qp.S(0, 0) = 1e20;
+  qp.S(1, 1) = 1.;
+  Mprgp::Settings settings;
+  settings.diagonal_scaling = false;
+  Vector<double> z = vec({0., -1.});
+  EXPECT_TRUE(Mprgp(settings).solve(qp, z).converged);
+  expect_near(z, vec({0., 0.5}), 1e-9);
+}
+
 /** S = 0 leaves a linear program, whose solution is a corner. */
 TEST(Mprgp, NoCurvature)
 {

@@ -484,6 +484,16 @@ TEST(EccentricLoads, SlideByTheCoefficientWhereTheyPress)
             "0.07 * 2 = 0.14; add a support, raise Friction coefficient or lower the loads");
 }
 
+/** Friction near the middle of one half alone: no point of a coarse edge sees it, eighths of the edge do, and a bisected one holds. */
+TEST(EccentricLoads, AreHeldByFrictionBetweenThePoints)
+{
+  Scene<2> scene = wall(0.625, 1, 2, true);
+  scene.boundary("bottom").friction.coefficient =
+      expression<2>(std::function<double(const Point<2> &)>(
+          [](const Point<2> &x) { return std::abs(x[0] - 0.625) < 0.05 ? 0.5 : 0.; }));
+  EXPECT_EQ(failure_of(scene), "");
+}
+
 /** A mesh that is fine enough stays as it is, and a run state knows the bisected one again. */
 TEST(EccentricLoads, AreMetByBisectionOnlyWhereTheyMustBe)
 {

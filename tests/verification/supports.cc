@@ -41,6 +41,9 @@ TEST(Corners, ASupportDoesNotLiftTheContactBesideIt)
   const Laboratory discrete(scene, mesh);
   const Solution<2> solution = discrete.solve();
   EXPECT_LE(violation(discrete, solution.u), 1e-15);
+  for (const SupportedNode<2> &node : // both cells of a vertex inside of a side say the same
+       supported_nodes(scene, discrete.displacement_space.numbering(), discrete.tables))
+    EXPECT_EQ(node.conditions.size(), node.x.norm() < 1e-12 ? 2u : 1u) << node.x;
   // The corner of wall and slope stays where it is; without u_n = 0 there it slides along the wall.
   for (const SupportedNode<2> &node :
        supported_nodes(scene, discrete.displacement_space.numbering(), discrete.tables))
@@ -62,6 +65,29 @@ TEST(Corners, TwoContactsMeet)
   const RandomMesh mesh(scene, 5, 2);
   const Laboratory discrete(scene, mesh);
   EXPECT_LE(violation(discrete, discrete.solve().u), 1e-15);
+}
+
+/** Two sides of nearly one direction hold the node between them along their normal alone. */
+TEST(Corners, DirectionsThatNearlyRepeatEachOtherCountOnce)
+{
+  Scene<2> scene;
+  scene.geometry.shape = Shape::quadrilateral;
+  scene.geometry.corners =
+      quadrilateral_corners({{Point<2>(0, 0), Point<2>(1, -1e-7), Point<2>(2, 0), Point<2>(1, 1)}});
+  scene.boundary("bottom").contact = scene.boundary("right").contact = Contact::bilateral;
+  const RandomMesh mesh(scene, 1, 0);
+  const Laboratory discrete(scene, mesh);
+  unsigned int n_shared = 0;
+  for (const SupportedNode<2> &node :
+       supported_nodes(scene, discrete.displacement_space.numbering(), discrete.tables))
+    if (node.conditions.size() == 2)
+    {
+      const auto &constraints = discrete.displacement_space.constraints();
+      EXPECT_TRUE(constraints.is_constrained(node.dofs[1]));
+      EXPECT_FALSE(constraints.is_constrained(node.dofs[0]));
+      ++n_shared;
+    }
+  EXPECT_EQ(n_shared, 1u);
 }
 
 /** A prescribed displacement along the slope, and the constraint of the slope, at one node. */

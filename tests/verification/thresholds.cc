@@ -60,6 +60,32 @@ void run(const Scene<2> &scene, const std::function<void(const StepReport<2> &)>
 
 // ---------------------------------------------------------------- loads, gaps, friction
 
+/** What drives counts with its size on the body, here of diameter sqrt(2) and weight mu = 1. */
+TEST(Thresholds, DataScaleIsOfAllThatDrives)
+{
+  struct Row
+  {
+    Overrides entries;
+    double displacement, stress;
+  };
+  const double size = std::sqrt(2.);
+  const auto plate = [](const std::string &entry, const std::string &value) {
+    return Overrides{{"Boundary top/Rigid", "true"}, {"Boundary top/" + entry, value}};
+  };
+  for (const Row &row : {Row{{{"Boundary bottom/Gap", "-0.02"}}, 0.02, 0.02 / size}, // interference
+                         Row{{{"Boundary bottom/Gap", "5"}}, 0, 0},
+                         Row{{{"Boundary left/Traction", "0.3; 0"}}, 0.3 * size, 0.3},
+                         Row{{{"Boundary left/Displacement", "0.02; free"}}, 0.02, 0.02 / size},
+                         Row{plate("Rotation", "-0.02"), 0.02 * size, 0.02},
+                         Row{plate("Moment", "0.3"), 0.3 / size, 0.3 / (size * size)}})
+  {
+    const DataScale scale =
+        data_scale(square(Overrides{{"Boundary bottom/Contact", "unilateral"}} + row.entries));
+    EXPECT_NEAR(scale.displacement, row.displacement, 1e-15) << row.entries.back().first;
+    EXPECT_NEAR(scale.stress, row.stress, 1e-15) << row.entries.back().first;
+  }
+}
+
 /** 4 % of the loads are left over, and nothing that the mesh sees resists them. */
 TEST(Thresholds, LoadsThatNearlyCancelPushAllTheSame)
 {
