@@ -28,7 +28,7 @@ HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material N
            "Missing": ("failed", ""), "InadmissibleContact": ("failed", "")}
 # Functions that pass on what others say, or the words of the system, as NOUN:FUNCTION; what they say beside that is not passed on.
 PASSED_ON = {
-    "base/parameter_file:", "base/parameter_file:fail", "base/processes:collectively", "base/file_format:reject", "checks/rejection:reject",
+    "base/parameter_file:fail", "base/processes:collectively", "base/file_format:reject", "checks/rejection:reject",
     "checks/rejection:check_value", "checks/method:check_primal_path", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
     "checks/shape:check_materials", "driver/load_history:run", "driver/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
@@ -44,11 +44,11 @@ ENDINGS = {**{f"driver/{noun}": "; go on with the scene of that run, or begin a 
            "output/": "; choose another one with --output", "program/sweep_run": "; choose another one with --output"}
 # Sections that a source is about where they are no literals.
 SECTIONS = {"checks/functions": "Boundary NAME", "checks/axisymmetry": "Boundary NAME", "reader/boundary_reader": "Boundary NAME",
-            "reader/plate_reader": "Boundary NAME", "reader/probe_reader": "Probe NAME", "checks/probes": "Probe NAME",
+            "reader/plate_reader": "Boundary NAME", "reader/probe_reader": "Probe NAME",
             "reader/pair_sides": "Contact NAME", "reader/bodies_reader": "Contact NAME", "reader/body_reader": "Material NAME",
             "reader/material_reader": "Material NAME", "checks/supports": "Boundary NAME",
             "checks/parts": "Boundary NAME", "checks/method": "Boundary NAME", "checks/exact_agreement": "Boundary NAME",
-            "closed_forms/closed_form": "Boundary NAME", "plane/contact_numbering": "Boundary NAME", "space/primal_space": "Boundary NAME",
+            "closed_forms/closed_form": "Boundary NAME",
             "shapes/mesh_from_file": "Boundary NAME", "reader/scene_reader": "Material NAME", "shapes/shape": "Geometry"}
 # What the refused input of other sources is about.
 SUBJECTS = {"The command line": ("program/", "input/sweep"), "Scene files": ("base/parameter_file", "input/parameters", "input/remedies", "reader/user_names"),
@@ -236,8 +236,6 @@ class Sources:
                 continue
             if is_sign(here[k + 1], "="):
                 text = self.text(statement(here, k + 2), noun, k, depth + 1)
-            elif is_sign(here[k + 1], "(") and here[k - 1].text == "string":
-                text = self.text(group(here, k + 1)[0][0], noun, k, depth + 1)
             else:
                 continue
             if has_words(text):
@@ -272,16 +270,12 @@ class Sources:
         return "[" + " | ".join(texts) + "]" if len(texts) > 1 else "".join(texts)
 
     def streamed(self, name, noun, place, depth):
-        """What was written to a stream before it is asked for: since its declaration, but not what has been returned."""
+        """What was written to a stream before it is asked for, since its declaration."""
         here, (begin, _) = self.code[noun], self.around(noun, place)
         start = max((k for k in range(begin, place) if here[k].text == "ostringstream" and here[k + 1].text == name), default=place)
-        written, k, skip_to = [], start + 2, 0
+        written, k = [], start + 2
         while k < place:
-            if is_sign(here[k], "{") and is_sign(here[k - 1], ")"):
-                end = group(here, k)[1]
-                if end < place and any(token.text == "return" for token in here[k:end]):
-                    k = end  # another message
-            elif here[k].text == name and here[k + 1].text == "<<":
+            if here[k].text == name and here[k + 1].text == "<<":
                 said = statement(here, k + 2)
                 text = self.text(said, noun, k, depth + 1, True)
                 if here[k - 1].text == "else" and written:
