@@ -287,38 +287,6 @@ TEST(Orthotropy, EqualModuliGiveTheIsotropicSolution)
   }
 }
 
-/** The body with its axes, turned by 30 degrees. */
-TEST(Orthotropy, TurnedScenesHaveTheSameEnergyAndBound)
-{
-  const auto scene = [](const double degrees)
-  {
-    const double c = std::cos(degrees * numbers::PI / 180),
-                 s = std::sin(degrees * numbers::PI / 180);
-    const auto at = [&](const double x, const double y)
-    { return in_digits(c * x - s * y) + ", " + in_digits(s * x + c * y); };
-    const std::string along = "(" + in_digits(c) + "*x + " + in_digits(s) + "*y)";
-    Scene<2> result = scene_of(
-        fibres(50, 20 + degrees) +
-        Overrides{
-            given::quadrilateral(
-                "Geometry", at(0, 0) + "; " + at(2, 0) + "; " + at(2, 1) + "; " + at(0, 1), "4, 2"),
-            {"Boundary left/Displacement", "0; 0"},
-            given::rough("bottom", "unilateral", "0.05"),
-            {"Boundary top/Pressure", "0.1 + 0.1*" + along},
-            given::steps("hpa3", "5"),
-            {"Adaptivity/Tolerance", "0"}});
-    return result;
-  };
-  const std::vector<Outcome> one = outcomes(scene(0)), turned = outcomes(scene(30));
-  ASSERT_EQ(one.size(), turned.size());
-  for (unsigned int k = 0; k < one.size(); ++k)
-  {
-    EXPECT_NEAR(turned[k].energy, one[k].energy, 1e-10 * std::abs(one[k].energy)) << k;
-    EXPECT_NEAR(turned[k].estimate, one[k].estimate, 1e-6 * one[k].estimate) << k;
-    EXPECT_NEAR(turned[k].bound, one[k].bound, 1e-6 * one[k].bound) << k;
-  }
-}
-
 /**
  * A strip whose fibres rise to the right is pulled: they turn towards the load, and its end sinks. By a small load across
  * it: J is quadratic, and its slope is the work of that load.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Rigid plates: boundaries that move as a whole, under forces and moments. And bodies with all that a scene can have.
+// Rigid plates: boundaries that move as a whole, under forces and moments; and weight.
 #include "discretisation.h"
 
 #include <hpvi/plane/plates.h>
@@ -198,84 +198,6 @@ TEST(Plates, PushABlockUntilItSlips)
   EXPECT_NO_THROW(push(2.9));
   EXPECT_THROW(push(3.1), NumericalFailure);
 }
-/** J and the bound of a body with all that a scene can have at its side, told in another frame: turned, mirrored, longer. */
-struct Told
-{
-  std::vector<double> J, bound;
-};
-
-Told told(const double angle, const double mirror, const double length)
-{
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Tensor<2, 2> Q({{c, -s * mirror}, {s, c * mirror}});
-  const auto at = [&](const double x, const double y) { return length * (Q * Point<2>(x, y)); };
-  const auto pair = [](const Tensor<1, 2> &v, const std::string &between)
-  { return in_digits(v[0]) + between + in_digits(v[1]); };
-  // coordinates of the body, as expressions of those of the frame
-  const auto along = [&](const unsigned int d)
-  {
-    return "((" + in_digits(Q[0][d]) + "*x + " + in_digits(Q[1][d]) + "*y)/" + in_digits(length) +
-           ")";
-  };
-  const Tensor<2, 2> strain = Q * Tensor<2, 2>({{0.01, 0.004}, {0.004, -0.006}}) * transpose(Q);
-  std::vector<std::string> corners, sides{"bottom", "right", "top", "left"};
-  for (const auto &[x, y] : {std::pair{0., 0.}, {3., 0.3}, {3.4, 2.2}, {0.4, 1.9}})
-    corners.push_back(pair(at(x, y), ", "));
-  if (mirror < 0) // counterclockwise again: the bottom stays, left and right change places
-  {
-    std::swap(corners[0], corners[1]);
-    std::swap(corners[2], corners[3]);
-    std::swap(sides[1], sides[3]);
-  }
-  Told result;
-  each_step<2>(
-      scene_of(
-          {given::quadrilateral(
-               "Geometry", corners[0] + "; " + corners[1] + "; " + corners[2] + "; " + corners[3],
-               "3, 2"),
-           {"Material/Elasticity", "orthotropic"},
-           {"Material/Young's moduli", "10, 4, 5"},
-           {"Material/Poisson's ratios", "0.3, 0.2, 0.25"},
-           {"Material/Shear moduli", "3"},
-           {"Material/Angle", in_digits(mirror * 25 + angle * 180 / numbers::PI)},
-           {"Material/Initial strain", in_digits(strain[0][0]) + "; " + in_digits(strain[1][1]) +
-                                           "; " + in_digits(strain[0][1])},
-           {"Material/Thermal expansion", "0.01"},
-           {"Temperature/Expression", along(0) + " + " + along(1) + "^2"},
-           {"Boundary " + sides[0] + "/Contact", "unilateral"},
-           {"Boundary " + sides[0] + "/Friction bound", "0.05"},
-           {"Boundary " + sides[3] + "/Spring",
-            in_digits(5 / length) + "; " + in_digits(3 / length)},
-           {"Boundary " + sides[1] + "/Pressure", "0.1*" + along(1)},
-           {"Boundary " + sides[2] + "/Rigid", "true"},
-           {"Boundary " + sides[2] + "/Force", pair(length * (Q * Point<2>(0.2, -0.9)), "; ")},
-           {"Boundary " + sides[2] + "/Moment", in_digits(mirror * length * length * 0.1)},
-           given::steps("hpa3", "3")}),
-      [&](const StepReport<2> &step)
-      {
-        result.J.push_back(step.energies.energy / (length * length));
-        result.bound.push_back(step.bound ? step.bound->total / length : -1.);
-      });
-  return result;
-}
-
-TEST(Frames, AgreeOnAllThatABodyCanHave)
-{
-  const Told here = told(0, 1, 1);
-  EXPECT_GT(here.bound.back(), 0);
-  for (const auto &[angle, mirror, length] :
-       {std::array<double, 3>{{0.7, 1, 1}}, {{0, -1, 1}}, {{0, 1, 1000}}, {{2.1, -1, 0.01}}})
-  {
-    const Told there = told(angle, mirror, length);
-    ASSERT_EQ(there.J.size(), here.J.size());
-    for (unsigned int step = 0; step < here.J.size(); ++step)
-    {
-      EXPECT_NEAR(there.J[step] / here.J[step], 1, 1e-10) << angle << ' ' << mirror << ' ' << step;
-      EXPECT_NEAR(there.bound[step] / here.bound[step], 1, 1e-6) << angle << ' ' << mirror;
-    }
-  }
-}
-
 /**
  * A cantilever under its own weight: with w = rho g h it has the energy `w^2 L^5/(40 E I) + 3 w^2 L^3/(15 G h)` by Timoshenko's theory of
  * beams, with 5/6 of the shear; what is left falls with the square of h/L.
