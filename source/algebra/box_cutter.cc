@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/box_cutter.h>
+#include <hpvi/base/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -158,7 +159,7 @@ std::optional<double> BoxCutter::common_jump(const Grid &grid, const unsigned in
     return {};
   const std::optional<double> here = jump(grid, d, steepest),
                               there = here ? jump(grid, d, farthest) : std::nullopt;
-  return there && std::abs(*here - *there) < 1e-12 ? here : std::nullopt;
+  return there && std::abs(*here - *there) < same_cut ? here : std::nullopt;
 }
 
 /** Direction and place: at such a jump, else in the middle, across the direction that gains more. */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/output/arrow_rows.h>
 #include <hpvi/output/scene_words.h>
 
@@ -59,9 +60,10 @@ RowSample sample(const SceneSheet &sheet, const OutlinePart &part, const ArrowRo
   for (const Station &place : places)
   {
     const Tensor<1, 2> vector = row.value(place.x);
-    result.is_constant = result.is_constant && (vector - first).norm() <= 1e-9 * first.norm();
+    result.is_constant =
+        result.is_constant && (vector - first).norm() <= unseen_in_picture * first.norm();
     result.along = std::max(result.along, std::abs(sheet.direction(vector) * place.along));
-    if (vector.norm() > (1 + 1e-9) * result.largest)
+    if (vector.norm() > (1 + unseen_in_picture) * result.largest)
     {
       result.largest = vector.norm();
       result.where = place;
@@ -139,7 +141,7 @@ double draw_row(SceneSheet &sheet, const MarkedPart &marked, const ArrowRow &row
       deepest = std::max(deepest, (end - place.at) * place.normal);
     join(sheet.drawing, before, arrow, row);
     before = arrow;
-    if (value.norm() > (1 + 1e-9) * size_of_largest)
+    if (value.norm() > (1 + unseen_in_picture) * size_of_largest)
     {
       size_of_largest = value.norm();
       largest = arrow;
@@ -191,7 +193,7 @@ void draw_body_force(SceneSheet &sheet, const Triangulation<2> &mesh)
   const std::string size = range_in_words(sizes, body_force_unit(sheet.scene));
   PageVector along({0., 1.});
   sheet.drawing.begin("body-force");
-  if (mean.norm() > 1e-9 * *std::max_element(sizes.begin(), sizes.end()))
+  if (mean.norm() > unseen_in_picture * *std::max_element(sizes.begin(), sizes.end()))
   {
     along = sheet.direction(mean / mean.norm());
     sheet.drawing.circle(centre, 3., std::string("fill=\"") + mark_colours::load + '"');

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -53,7 +54,7 @@ std::string with_unit(const double value, const std::string &unit, const int dig
 std::string range_in_words(const std::vector<double> &values, const std::string &unit)
 {
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  const double round_off = 1e-9 * std::max(std::abs(*least), std::abs(*largest));
+  const double round_off = unseen_in_picture * std::max(std::abs(*least), std::abs(*largest));
   const auto clean = [&](const double value) { return std::abs(value) <= round_off ? 0. : value; };
   if (*largest - *least <= round_off)
     return with_unit(clean(*largest), unit);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/output/chart_axes.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ std::vector<double> tick_marks(const double lower, const double upper, const dou
     if (factor * decade >= wanted)
       spacing = factor * decade;
   std::vector<double> marks;
-  const double slack = 1e-9 * (upper - lower);
+  const double slack = unseen_in_picture * (upper - lower);
   for (double k = std::ceil((lower - slack) / spacing); k * spacing <= upper + slack; ++k)
     marks.push_back(k * spacing + 0.); // never -0
   return marks;

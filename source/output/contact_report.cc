@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/plate_report.h>
@@ -43,7 +44,7 @@ double largest_force(const Equilibrium<dim> &equilibrium)
 template <int dim>
 std::string axial_force_in_words(const Tensor<1, dim> &force, const double scale)
 {
-  return "axial force " + text(std::abs(force[1]) > 1e-12 * scale ? force[1] : 0., 6);
+  return "axial force " + text(std::abs(force[1]) > shown_as_zero * scale ? force[1] : 0., 6);
 }
 /** Beside which a force is round-off: around a closed curve tractions balance each other. */
 template <int dim>
@@ -100,7 +101,7 @@ template <int dim>
 Tensor<1, dim> clean(Tensor<1, dim> x, const double scale)
 {
   for (unsigned int d = 0; d < dim; ++d)
-    if (std::abs(x[d]) < 1e-12 * scale)
+    if (std::abs(x[d]) < shown_as_zero * scale)
       x[d] = 0;
   return x;
 }
@@ -288,7 +289,7 @@ std::optional<Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
 {
   static_assert(dim == 2, "a moment is a number");
   const Tensor<1, dim> &F = boundary.force;
-  if (!(F.norm() > 1e-12 * scale))
+  if (!(F.norm() > shown_as_zero * scale))
     return std::nullopt;
   const auto cross = [](const Tensor<1, dim> &a, const Tensor<1, dim> &b)
   { return a[0] * b[1] - a[1] * b[0]; };
@@ -390,7 +391,7 @@ std::string loads_in_words(const Scene<2> &scene)
   make_mesh(scene, mesh);
   const LoadRules<2> rules(scene, mesh, std::make_shared<const ShapeTables<2>>());
   const LoadSum sum = rules.sum().times(scene.thickness);
-  const double none = 1e-12 * scene.geometry.diameter() * sum.absolute;
+  const double none = shown_as_zero * scene.geometry.diameter() * sum.absolute;
   if (is_axial(sum.force))
     return "loads: " + axial_force_in_words(sum.force, sum.absolute) + '\n';
   return "loads: force " + point_text(clean(sum.force, sum.absolute)) + ", moment " +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/chart.h>
@@ -278,7 +279,7 @@ std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::stri
   const auto [least, largest] = std::minmax_element(line.points.begin(), line.points.end());
   const double change = (*largest)[0] - (*least)[0],
                size = std::max(std::abs((*largest)[0]), std::abs((*least)[0]));
-  if (!(change > 1e-9 * size) || !has_points(line))
+  if (!(change > unseen_in_picture * size) || !has_points(line))
     return {};
   Chart chart;
   chart.x_label = with_unit_of("u" + axis + " of " + boundary, scene.length_unit);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/html.h>
 #include <hpvi/output/report_tables.h>
@@ -44,7 +45,7 @@ double force_round_off(const std::vector<Record> &forces)
   for (const Record &row : forces)
     for (std::size_t k = 5; k < row.size(); k += 2)
       largest = std::max(largest, std::abs(number(row[k].second).value_or(0)));
-  return 1e-12 * largest;
+  return shown_as_zero * largest;
 }
 
 HtmlTable forces_table(const std::vector<Record> &forces)

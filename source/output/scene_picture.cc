@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/output/arrow_rows.h>
 #include <hpvi/output/cell_outline.h>
 #include <hpvi/output/chart_axes.h>
@@ -91,14 +92,14 @@ std::vector<MarkedPart> marked_parts(const Scene<2> &scene, const std::vector<Ou
   std::vector<MarkedPart> marked;
   for (const OutlinePart &part : parts)
   {
-    const bool is_longest =
-        std::none_of(parts.begin(), parts.end(),
-                     [&](const OutlinePart &other)
-                     {
-                       return other.boundary == part.boundary &&
-                              (other.length() > (1 + 1e-9) * part.length() ||
-                               (&other < &part && other.length() > (1 - 1e-9) * part.length()));
-                     });
+    const bool is_longest = std::none_of(
+        parts.begin(), parts.end(),
+        [&](const OutlinePart &other)
+        {
+          return other.boundary == part.boundary &&
+                 (other.length() > (1 + unseen_in_picture) * part.length() ||
+                  (&other < &part && other.length() > (1 - unseen_in_picture) * part.length()));
+        });
     marked.push_back({part, scene.boundaries[part.boundary], is_longest, {}});
     for (const OutlinePart &other : parts)
       if (other.boundary == part.boundary)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/coarse_cuts.h>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ std::optional<BoundingBox<2>> seen_from(const BoundingBox<2> &part, const Boundi
     };
     lower[d] = in_part(box.lower_bound(d));
     upper[d] = in_part(box.upper_bound(d));
-    if (upper[d] - lower[d] < 1e-12)
+    if (upper[d] - lower[d] < same_cut)
       return {};
   }
   return BoundingBox<2>({lower, upper});
@@ -58,7 +59,7 @@ std::vector<double> seen_from(const double lower, const double width,
 {
   std::vector<double> result{0.};
   for (const double cut : cuts)
-    if (const double s = (cut - lower) / width; s > result.back() + 1e-12 && s < 1 - 1e-12)
+    if (const double s = (cut - lower) / width; s > result.back() + same_cut && s < 1 - same_cut)
       result.push_back(s);
   result.push_back(1.);
   return result;

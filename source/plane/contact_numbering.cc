@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/coarse_cuts.h>
 #include <hpvi/plane/contact_space.h>
 
@@ -113,7 +114,7 @@ bool is_prescribed(const AffineConstraints<double> &constraints,
     else
       free[dofs[c]] += direction[c];
   return std::all_of(free.begin(), free.end(),
-                     [](const auto &entry) { return std::abs(entry.second) < 1e-6; });
+                     [](const auto &entry) { return std::abs(entry.second) < repeated_direction; });
 }
 } // namespace
 
@@ -228,10 +229,11 @@ void ContactSpace<dim>::number_nodes(ContactFace<dim> &face,
     {
       std::vector<unsigned int> &known =
           at_vertices[face.cell->face(face.face_no)->vertex_index(k / p)];
-      const auto same = std::find_if(known.begin(), known.end(),
-                                     [&](const unsigned int i) {
-                                       return (unknowns[i].direction - frame.normal).norm() < 1e-6;
-                                     });
+      const auto same =
+          std::find_if(known.begin(), known.end(),
+                       [&](const unsigned int i) {
+                         return (unknowns[i].direction - frame.normal).norm() < repeated_direction;
+                       });
       if (same == known.end())
         known.push_back(unknown);
       else

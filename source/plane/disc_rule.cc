@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/disc_rule.h>
 
 #include <deal.II/base/numbers.h>
@@ -16,8 +17,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double hair = 1e-9;        ///< of the cell or the radius: nothing is smaller
-constexpr double longest_arc = 0.25; ///< [rad]
+constexpr double longest_arc = 0.25;                           ///< [rad]
 constexpr std::array<double, 3> samples = {{0.31, 0.5, 0.77}}; ///< of a piece between crossings
 
 double cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
@@ -102,7 +102,7 @@ std::vector<double> CutCell::roots_on(const unsigned int k) const
     {
       const double q = -(b + std::copysign(std::sqrt(discriminant), b));
       for (const double root : {q / a, q == 0 ? 0. : c / q})
-        if (root > -hair && root < 1 + hair)
+        if (root > -same_on_edge && root < 1 + same_on_edge)
           roots.push_back(std::clamp(root, 0., 1.));
     }
   }
@@ -137,10 +137,10 @@ void CutCell::find_edge(const unsigned int k)
   {
     const Tensor<1, 2> out = map.point(on_edge(k, root)) - centre;
     angles.push_back(std::atan2(out[1], out[0]));
-    if (root > ends.back() + hair)
+    if (root > ends.back() + same_on_edge)
       ends.push_back(root);
   }
-  if (1 - ends.back() > hair)
+  if (1 - ends.back() > same_on_edge)
     ends.push_back(1.);
   const Point<2> inwards = Point<2>(0.5, 0.5);
   for (unsigned int i = 0; i + 1 < ends.size(); ++i)
@@ -151,11 +151,11 @@ void CutCell::find_edge(const unsigned int k)
       if (const double value = level(on_edge(k, begin + share * (end - begin)));
           std::abs(value) > std::abs(here))
         here = value;
-    if (const Point<2> middle = on_edge(k, 0.5 * (begin + end)); std::abs(here) < hair)
+    if (const Point<2> middle = on_edge(k, 0.5 * (begin + end)); std::abs(here) < same_on_edge)
       here = level(middle + 1e-3 * (inwards - middle));
     if (here > 0)
       continue;
-    n_whole_edges += end - begin > 1 - 2 * hair ? 1 : 0;
+    n_whole_edges += end - begin > 1 - 2 * same_on_edge ? 1 : 0;
     const Point<2> a = on_edge(k, begin), b = on_edge(k, end);
     all.push_back({[a, b](const double s) { return a + s * (b - a); },
                    [a, b](const double) -> Tensor<1, 2> { return b - a; }});
@@ -178,10 +178,10 @@ std::optional<Point<2>> CutCell::reference(const Point<2> &x, Point<2> start) co
     if (start.norm() > 10)
       return std::nullopt;
   }
-  if (x.distance(map.point(start)) > hair * size)
+  if (x.distance(map.point(start)) > same_on_edge * size)
     return std::nullopt;
   for (const double coordinate : {start[0], start[1]})
-    if (coordinate < hair || coordinate > 1 - hair)
+    if (coordinate < same_on_edge || coordinate > 1 - same_on_edge)
       return std::nullopt;
   return start;
 }
@@ -196,7 +196,7 @@ void CutCell::find_arcs()
   for (unsigned int i = 0; i + 1 < angles.size(); ++i)
   {
     const double begin = angles[i], end = angles[i + 1];
-    if (end - begin < hair)
+    if (end - begin < same_on_edge)
       continue;
     for (const double share : samples) // it may touch an edge at one of them
     {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numbers.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/failure_mechanism.h>
 
 #include <algorithm>
@@ -62,7 +63,8 @@ std::vector<ContactSide<dim>> contact_sides(const ContactSpace<dim> &contact_spa
                        {{face.point(0.), face.point(0.)}}});
     ContactSide<dim> &side = sides.back();
     side.is_line = side.is_line && !face.map.is_curved() &&
-                   (middle.normal - side.normal).norm() <= 1e-9 && !face.condition->is_tied();
+                   (middle.normal - side.normal).norm() <= same_normal &&
+                   !face.condition->is_tied();
     side.is_oblique |=
         std::abs((face.point(1.) - face.point(0.)) * middle.normal) > 1e-10 * face.length;
     side.friction += thickness * face.friction_without_pressure();
@@ -302,7 +304,7 @@ FailureMechanism topple(const ContactSide<dim> &side, const unsigned int end, co
   {
     Point<dim> meets = side.ends[end] + (end == 0 ? -M : M) / N * side.tangent;
     for (unsigned int d = 0; d < dim; ++d)
-      if (std::abs(meets[d]) < 1e-12 * side.length()) // round-off
+      if (std::abs(meets[d]) < shown_as_zero * side.length()) // round-off
         meets[d] = 0;
     line << " and meet " << side.name() << " at (" << meets << "), beyond its end";
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/box_cutter.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/given_data.h>
 #include <hpvi/plane/load_quadrature.h>
 
@@ -133,7 +134,7 @@ std::vector<double> common_cuts(const unsigned int d, const BoxCutter::Function 
              other = cuts_along(d, 0.6180340, f, gauss, n_parts);
   for (const double cut : one)
     if (std::any_of(other.begin(), other.end(),
-                    [cut](const double s) { return std::abs(s - cut) < 1e-12; }))
+                    [cut](const double s) { return std::abs(s - cut) < same_cut; }))
       result.push_back(cut);
   return result;
 }

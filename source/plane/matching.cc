@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/matching.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -12,19 +13,14 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-constexpr double hair = 1e-9; ///< of an edge: round-off of ends that lie opposite to each other
-} // namespace
-
 template <int dim>
 const ContactSegment<dim> *whole_face_opposite(const ContactFace<dim> &face)
 {
   if (face.segments.size() != 1)
     return nullptr;
   const ContactSegment<dim> &only = face.segments[0];
-  const bool is_whole = only.begin <= hair && only.end >= 1. - hair &&
-                        std::abs(only.at_end - only.at_begin) >= 1. - hair;
+  const bool is_whole = only.begin <= same_on_edge && only.end >= 1. - same_on_edge &&
+                        std::abs(only.at_end - only.at_begin) >= 1. - same_on_edge;
   return is_whole ? &only : nullptr;
 }
 
@@ -107,8 +103,8 @@ std::vector<bool> nested_cells(const ContactSpace<dim> &contact_space, const uns
     for (const ContactSegment<dim> &segment : face.segments)
     {
       const auto [begin, end] = std::minmax(segment.at_begin, segment.at_end);
-      const bool fills_own = segment.end - segment.begin >= 1. - hair,
-                 fills_opposite = end - begin >= 1. - hair;
+      const bool fills_own = segment.end - segment.begin >= 1. - same_on_edge,
+                 fills_opposite = end - begin >= 1. - same_on_edge;
       if (!(fills_own || fills_opposite) || !is_dyadic(segment.begin, segment.end) ||
           !is_dyadic(begin, end))
         return std::vector<bool>(n_cells);

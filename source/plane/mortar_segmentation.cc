@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/mortar_segmentation.h>
 #include <hpvi/scene/edge_projection.h>
@@ -15,11 +16,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr double
-    shortest =
-        1e-9, ///< of an edge: a segment below is round-off of ends that lie opposite to each other
-    parallel = 1e-9; ///< of unit vectors
-
 double chord(const ExactFace &face)
 {
   return face.path.ends[0].distance(face.path.ends[1]);
@@ -34,7 +30,7 @@ void drop_what_is_behind(std::vector<ContactSegment<dim>> &segments, std::vector
       if (a != b && distances[b] < distances[a] &&
           std::min(segments[a].end, segments[b].end) -
                   std::max(segments[a].begin, segments[b].begin) >
-              shortest)
+              same_on_edge)
       {
         segments.erase(segments.begin() + a);
         distances.erase(distances.begin() + a);
@@ -99,7 +95,7 @@ MortarSegmentation<dim>::MortarSegmentation(const Scene<dim> &scene,
       {
         const Tensor<1, dim> own =
             (k == 0 ? -1. : 1.) * cross_product_2d(face.drawn.path.normal(0.5));
-        if (face.drawn.path.curve || (result.norm() > 0 && (own - result).norm() > parallel))
+        if (face.drawn.path.curve || (result.norm() > 0 && (own - result).norm() > same_normal))
           return Tensor<1, dim>();
         result = result.norm() > 0 ? result : own;
       }
@@ -197,7 +193,7 @@ std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_line(const ContactI
   {
     const double one = on_slave(face.begin), two = on_slave(face.end), begin = std::min(one, two),
                  end = std::max(one, two);
-    if (end - begin < shortest)
+    if (end - begin < same_on_edge)
       continue;
     const auto on_master = [&](const double s)
     {
@@ -229,7 +225,7 @@ std::vector<ContactSegment<dim>> MortarSegmentation<dim>::on_curve(const Contact
     { return slave.on_path(slave.path.nearest(face.drawn.path.ends[end])); };
     const double one = on_slave(0), two = on_slave(1), begin = std::min(one, two),
                  end = std::max(one, two);
-    if (end - begin < shortest)
+    if (end - begin < same_on_edge)
       continue;
     const double middle = slave.on_path((begin + end) / 2);
     const auto place =

@@ -8,6 +8,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/supports.h>
 
@@ -28,9 +29,6 @@ using namespace dealii;
 // scene was read.
 namespace
 {
-/** Directions that differ by less say the same, as in the check of the scene. */
-constexpr double repeats = 1e-6;
-
 /** Orthonormal conditions with the same solutions, by Gram and Schmidt. */
 template <int dim>
 std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<dim>> &conditions)
@@ -45,7 +43,7 @@ std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<di
       rest.value -= product * q.value;
     }
     const double norm = rest.direction.norm();
-    if (norm > repeats)
+    if (norm > repeated_direction)
       basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
   }
   return basis;
@@ -59,7 +57,7 @@ void add_new(const PointCondition<dim> &condition, SupportedNode<dim> &node)
                    [&](const PointCondition<dim> &known)
                    {
                      return known.boundary == condition.boundary &&
-                            (known.direction - condition.direction).norm() < repeats;
+                            (known.direction - condition.direction).norm() < repeated_direction;
                    }))
     node.conditions.push_back(condition);
 }

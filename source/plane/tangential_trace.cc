@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/tangential_trace.h>
 
 #include <algorithm>
@@ -26,7 +27,8 @@ TangentialTrace<dim>::TangentialTrace(const ContactSpace<dim> &contact_space,
         last = origin = face.point(0.);
       }
       is_straight = is_straight && !face.map.is_curved() &&
-                    (face.frame(0.5).tangent - tangent).norm() < 1e-9 && (x - last) * tangent >= 0;
+                    (face.frame(0.5).tangent - tangent).norm() < same_normal &&
+                    (x - last) * tangent >= 0;
       last = x;
     }
   for (const ContactFace<dim> &face : contact_space.faces())

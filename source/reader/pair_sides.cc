@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/input/parameters.h>
@@ -125,7 +126,7 @@ void cut_at_ends(const Parameters &parameters, const FacingPart &facing, PairSid
         continue;
       const double one = facing.along * face.corners[0], two = facing.along * face.corners[1],
                    begin = std::min(one, two), end = std::max(one, two),
-                   hair = 1e-9 * (end - begin);
+                   hair = same_on_edge * (end - begin);
       if (end < facing.begin + hair || begin > facing.end - hair)
         continue;
       if (begin < facing.begin - hair || end > facing.end + hair)
@@ -365,7 +366,7 @@ void check_overlap(const Parameters &parameters, const std::vector<PairSides> &p
           const double begin = std::min(sign * other.line->begin, sign * other.line->end),
                        end = std::max(sign * other.line->begin, sign * other.line->end);
           if (std::min(end, one.line->end) - std::max(begin, one.line->begin) >
-              1e-9 * (end - begin))
+              same_on_edge * (end - begin))
             parameters.reject(one.section, "Between",
                               "has edges of " + side.name + " that Contact " + other.name +
                                   " has, too; let each edge touch one body");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/results/contact_residuals.h>
 #include <hpvi/results/turned_divergence.h>
 
@@ -127,7 +128,7 @@ std::vector<FreePart<dim>> free_parts(const Field<dim> &field)
         double end = 0;
         for (const auto &[from, to] : parts)
         {
-          if (from > end + 1e-9)
+          if (from > end + same_on_edge)
             result.push_back({cell, f, end, from});
           end = std::max(end, to);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/processes.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/results/field.h>
 #include <hpvi/results/values_at.h>
 #include <hpvi/scene/contact_axes.h>
@@ -147,16 +148,15 @@ template <int dim>
 std::optional<Point<dim>> reference_of(const typename DoFHandler<dim>::active_cell_iterator &cell,
                                        const Point<dim> &x)
 {
-  const double hair = 1e-9;
   if constexpr (dim == 2)
     if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved())
-      return reference_in_curved_cell(map, x, hair);
-  if (!cell->bounding_box().point_inside(x, hair))
+      return reference_in_curved_cell(map, x, same_on_edge);
+  if (!cell->bounding_box().point_inside(x, same_on_edge))
     return std::nullopt;
   try
   {
     const Point<dim> reference = StaticMappingQ1<dim>::mapping.transform_real_to_unit_cell(cell, x);
-    if (GeometryInfo<dim>::is_inside_unit_cell(reference, hair))
+    if (GeometryInfo<dim>::is_inside_unit_cell(reference, same_on_edge))
       return GeometryInfo<dim>::project_to_unit_cell(reference);
   }
   catch (const typename Mapping<dim>::ExcTransformationFailed &) // far outside a distorted cell

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
@@ -165,9 +166,9 @@ Tensor<1, dim> common_normal(const Side<dim> &side)
       normal = side.normal(k, 0.5);
     }
     for (unsigned int d = 0; d < dim; ++d)
-      normal[d] = std::abs(normal[d]) < 1e-12 ? 0. : normal[d];
+      normal[d] = std::abs(normal[d]) < same_direction ? 0. : normal[d];
     normal /= normal.norm();
-    if (k > 0 && (normal - result).norm() > 1e-12)
+    if (k > 0 && (normal - result).norm() > same_direction)
       return {};
     result = k > 0 ? result : normal;
   }
@@ -181,12 +182,12 @@ std::string name_and_place(const Scene<dim> &scene, const BoundaryCondition<dim>
   const Tensor<1, dim> normal = common_normal(side);
   const auto is_in_one_plane = [&](const unsigned int d)
   {
-    const double at = side.pieces[0][0][d], hair = 1e-9 * scene.geometry.diameter();
+    const double at = side.pieces[0][0][d], hair = same_place * scene.geometry.diameter();
     return std::all_of(side.pieces.begin(), side.pieces.end(),
                        [&](const auto &piece) { return std::abs(piece[0][d] - at) < hair; });
   };
   for (unsigned int d = 0; d < dim && dim == 3 && !side.pieces.empty(); ++d)
-    if (std::abs(normal[d]) > 1 - 1e-12 && is_in_one_plane(d))
+    if (std::abs(normal[d]) > 1 - same_direction && is_in_one_plane(d))
       return boundary.name + " (" + "xyz"[d] + " = " + text(side.pieces[0][0][d], 6) + ")";
   return boundary.name;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/contact_search.h>
 
 #include <algorithm>
@@ -12,8 +13,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr double parallel = 1e-9; ///< of unit vectors
-
 /** A side that is one straight line. */
 struct Line
 {
@@ -35,7 +34,7 @@ std::optional<Line> line_of(const Side<2> &side, Tensor<1, 2> &along, const doub
   for (unsigned int k = 0; k < side.pieces.size(); ++k)
   {
     if ((!side.curves.empty() && side.curves[k]) ||
-        (side.normal(k, 0.5) - normal).norm() > parallel ||
+        (side.normal(k, 0.5) - normal).norm() > same_normal ||
         std::abs(normal * side.pieces[k][0] - line.height) > same_place * size)
       return std::nullopt;
     length += side.pieces[k][0].distance(side.pieces[k][1]);
@@ -64,12 +63,12 @@ std::optional<FacingPart> contact_search(const Side<2> &first, const Side<2> &se
   problem.clear();
   if (!one || !two)
     return std::nullopt;
-  if ((one->normal - two->normal).norm() <= parallel)
+  if ((one->normal - two->normal).norm() <= same_normal)
   {
     problem = "look the same way and do not face each other";
     return std::nullopt;
   }
-  if ((one->normal + two->normal).norm() > parallel)
+  if ((one->normal + two->normal).norm() > same_normal)
     return std::nullopt;
   FacingPart result{along, std::max(one->begin, two->begin), std::min(one->end, two->end),
                     -two->height - one->height};

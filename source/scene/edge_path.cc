@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/edge_path.h>
 
 #include <algorithm>
@@ -10,9 +11,8 @@ using namespace dealii;
 
 namespace
 {
-constexpr double facing =
-                     -0.5, ///< cos 120 degrees: normals differ by 60 from those of parallel sides
-    hair = 1e-9;           ///< of an edge: round-off at its ends
+/** cos 120 degrees: normals differ by 60 from those of parallel sides. */
+constexpr double facing = -0.5;
 constexpr unsigned int n_parts = 8; ///< of a curved edge, in which a line meets it once at most
 } // namespace
 
@@ -117,12 +117,12 @@ std::optional<PlaceOpposite> place_opposite(const EdgePath &path, const Point<2>
   const unsigned int n_intervals = path.curve ? n_parts : 1;
   std::optional<PlaceOpposite> result;
   double before = offset(0);
-  if (std::abs(before) <= hair * length)
+  if (std::abs(before) <= same_on_edge * length)
     take_nearer(offset.place(0), result);
   for (unsigned int k = 1; k <= n_intervals; ++k)
   {
     const double begin = (k - 1.) / n_intervals, end = double(k) / n_intervals, value = offset(end);
-    if (std::abs(value) <= hair * length)
+    if (std::abs(value) <= same_on_edge * length)
       take_nearer(offset.place(end), result);
     if (before * value < 0)
       take_nearer(offset.place(path.curve ? offset.root(begin, end) : before / (before - value)),
@@ -142,7 +142,7 @@ std::optional<PlaceOpposite> place_opposite(const EdgePath &path, const Point<2>
   {
     const double change = offset(s) / offset.slope(s);
     s -= change;
-    if (!(s > -hair && s < 1 + hair))
+    if (!(s > -same_on_edge && s < 1 + same_on_edge))
       break;
     s = std::clamp(s, 0., 1.);
     if (std::abs(change) < 1e-10 && std::abs(offset(s)) <= 1e-13 * length)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/contact_search.h>
 #include <hpvi/scene/edge_projection.h>
 #include <hpvi/scene/spline.h>

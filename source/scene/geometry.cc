@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/numbers.h>
@@ -212,14 +213,14 @@ bool Geometry<dim>::contains(const Point<dim> &x) const
 {
   if constexpr (dim == 3)
     if (mesh)
-      return hpvi::contains(*hexahedra_of(*this), x, 2e-10 * radius());
+      return hpvi::contains(*hexahedra_of(*this), x, on_body * radius());
   const std::vector<Side<dim>> sides = sides_of(*this);
   if constexpr (dim == 2)
     if (mesh)
-      return is_inside(sides, x, 2e-10 * radius());
+      return is_inside(sides, x, on_body * radius());
   return std::all_of(sides.begin(), sides.end(),
                      [&](const Side<dim> &side)
-                     { return side.outward * (x - side.pieces[0][0]) <= 2e-10 * radius(); });
+                     { return side.outward * (x - side.pieces[0][0]) <= on_body * radius(); });
 }
 
 namespace

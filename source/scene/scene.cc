@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/scene.h>
 
 #include <hpvi/base/text.h>
@@ -12,8 +13,6 @@ using namespace dealii;
 
 namespace
 {
-constexpr double same_direction = 1e-12; ///< as round-off leaves a unit vector
-
 template <int dim>
 bool any_given(const std::array<Expression<dim>, dim> &components)
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/tolerances.h>
 #include <hpvi/space/box_stiffness.h>
 
 #include <algorithm>
@@ -98,7 +99,7 @@ const FullMatrix<double> *BoxStiffness<dim>::known(const CellMap<dim> &map,
     return nullptr;
   const Tensor<2, dim> edges = map.jacobian({});
   for (const auto &one : parallelepipeds)
-    if (one->material == material && (one->edges - edges).norm() < 1e-12 * edges.norm())
+    if (one->material == material && (one->edges - edges).norm() < same_box * edges.norm())
       return &one->K;
   if (parallelepipeds.size() == most)
     return nullptr;
@@ -168,7 +169,7 @@ unsigned int BoxStiffness<dim>::size_class(const Cell &cell) const
                                   [&](const Tensor<1, dim> &other)
                                   {
                                     for (unsigned int d = 0; d < dim; ++d)
-                                      if (std::abs(other[d] - size[d]) > 1e-12 * size[d])
+                                      if (std::abs(other[d] - size[d]) > same_box * size[d])
                                         return false;
                                     return true;
                                   });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/mesh.h>
 #include <hpvi/space/load_check.h>
@@ -88,7 +89,7 @@ std::string in_brackets(const Tensor<1, dim> &x)
 /** Without what is round-off beside @p scale. */
 double clean(const double value, const double scale)
 {
-  return std::abs(value) < 1e-12 * scale ? 0. : value;
+  return std::abs(value) < shown_as_zero * scale ? 0. : value;
 }
 
 template <int dim>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/scene/space_motion.h>
 #include <hpvi/space/consistent_constraints.h>
 #include <hpvi/space/primal_space.h>
@@ -133,7 +134,7 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
   face.axes = contact_axes(map.normal(number, corner(0)));
   const double area = map.face_area(number);
   for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_face && !face.own; ++v)
-    if (std::abs(map.face_measure(number, corner(v)) - area) > 1e-12 * area)
+    if (std::abs(map.face_measure(number, corner(v)) - area) > same_box * area)
       face.own = std::make_shared<const FaceContactDofs>(tables.moments_of(map, number));
   return face;
 }

@@ -9,8 +9,6 @@
 
 namespace hpvi
 {
-constexpr double same_place = 1e-9; ///< of the size of bodies: no distance
-
 /** Where two straight sides face each other. */
 struct FacingPart
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
 #include <hpvi/reader/scene_entries.h>
@@ -177,14 +178,14 @@ void check_direction(const Scene<dim> &scene, const BoundaryCondition<dim> &boun
     reject(scene, section, entry, "is not offered in space; remove it");
   if (!boundary.has_contact())
     reject(scene, section, entry, direction_needs_contact);
-  if (!(std::abs(d.norm() - 1) < 1e-12))
+  if (!(std::abs(d.norm() - 1) < same_direction))
     reject(scene, section, entry, "has the length " + to_string(d.norm()) + "; give a unit vector");
   for (std::size_t k = 0; k < points.size(); ++k)
   {
     const Point<dim> &x = points[k];
     const Tensor<1, dim> n = side.normal(x);
     const bool is_end = k == 0 || k + 1 == points.size();
-    if (!(d * n > (is_end ? -1e-12 : 1e-12)))
+    if (!(d * n > (is_end ? -same_direction : same_direction)))
       reject(scene, section, entry,
              "does not point out of the body at " + to_string(x) + ", where the normal is " +
                  to_string(Point<dim>(n)) + "; give a direction d with d . n > 0");

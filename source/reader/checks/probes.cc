@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
 
@@ -162,7 +163,7 @@ void check_one_body(const Scene<2> &scene, const Probe<2> &probe)
                     [&](const unsigned int side)
                     {
                       for (unsigned int k = 0; k < sides[side].pieces.size(); ++k)
-                        if (sides[side].distance(k, probe.at) <= 2e-10 * scene.geometry.radius())
+                        if (sides[side].distance(k, probe.at) <= on_body * scene.geometry.radius())
                           return true;
                       return false;
                     }))

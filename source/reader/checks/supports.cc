@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/base/tolerances.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
 #include <hpvi/scene/boundary_parts.h>
@@ -78,13 +79,12 @@ void check_meeting(const Scene<dim> &scene, const Point<dim> &point,
                    const std::vector<PointCondition<dim>> &conditions,
                    const std::vector<PointCondition<dim>> &limits, const double tolerance)
 {
-  constexpr double parallel = 1e-6;
   std::vector<PointCondition<dim>> basis; // by Gram and Schmidt
   for (const PointCondition<dim> &condition : conditions)
   {
     const PointCondition<dim> rest = rest_of(condition, basis);
     const double norm = rest.direction.norm();
-    if (norm > parallel)
+    if (norm > repeated_direction)
       basis.push_back({rest.direction / norm, rest.value / norm, rest.boundary});
     else if (std::abs(rest.value) > tolerance)
       reject_meeting(scene, scene.boundaries[basis.front().boundary],
@@ -92,7 +92,7 @@ void check_meeting(const Scene<dim> &scene, const Point<dim> &point,
   }
   for (const PointCondition<dim> &limit : limits)
     if (const PointCondition<dim> rest = rest_of(limit, basis);
-        rest.direction.norm() <= parallel && rest.value < -tolerance)
+        rest.direction.norm() <= repeated_direction && rest.value < -tolerance)
       reject_penetration(scene, scene.boundaries[basis.front().boundary],
                          scene.boundaries[limit.boundary], point, -rest.value);
 }
