@@ -3,32 +3,15 @@
 """progress.py HPVI SCENE.prm: a terminal shows what a step is doing and keeps none of it; where
 standard output is no terminal nothing of it appears. Dense work that takes long is said before."""
 import json
-import os
 import pathlib
-import pty
 import re
 import subprocess
 import sys
 import tempfile
 
+from runs import PROGRAM, on_terminal
+
 ERASE = "\r\x1b[K"
-
-
-def on_terminal(command):
-    """What the program sends to a terminal."""
-    controller, terminal = pty.openpty()
-    process = subprocess.Popen(command, stdout=terminal)
-    os.close(terminal)
-    received = b""
-    try:
-        while part := os.read(controller, 4096):
-            received += part
-    except OSError:  # how Linux says that the other side is closed
-        pass
-    os.close(controller)
-    if process.wait() != 0:
-        sys.exit(f"exit status {process.returncode} on a terminal")
-    return received.decode().replace("\r\n", "\n")
 
 
 def piped(command):
@@ -41,9 +24,9 @@ def without_times(text):
 
 
 def main():
-    program, scene = sys.argv[1:]
+    scene = sys.argv[1]
     with tempfile.TemporaryDirectory() as home:
-        command = [program, "--output", home, "--set", "Output/VTU=false", scene,
+        command = [PROGRAM, "--output", home, "--set", "Output/VTU=false", scene,
                    "--set", "Adaptivity/Maximum steps=3"]
         shown, plain = on_terminal(command), piped(command)
         for stage in ("step 1: assembling 16 elements", "step 2: factorising ",

@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import pathlib
+import pty
 import re
 import resource
 import shutil
@@ -226,3 +227,20 @@ def read_vtu(path):
             grid[f"cell {name}" if name in grid else name] = values if width == 1 else \
                 [tuple(values[k:k + width]) for k in range(0, len(values), width)]
     return grid
+
+
+def on_terminal(command):
+    """What the program sends to a terminal."""
+    controller, terminal = pty.openpty()
+    process = subprocess.Popen(command, stdout=terminal)
+    os.close(terminal)
+    received = b""
+    try:
+        while part := os.read(controller, 4096):
+            received += part
+    except OSError:  # how Linux says that the other side is closed
+        pass
+    os.close(controller)
+    if process.wait() != 0:
+        sys.exit(f"exit status {process.returncode} on a terminal")
+    return received.decode().replace("\r\n", "\n")

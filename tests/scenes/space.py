@@ -6,14 +6,13 @@ import csv
 import json
 import os
 import pathlib
-import pty
 import re
 import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 
-from runs import PROGRAM as HPVI, expanded, read_vtu
+from runs import PROGRAM as HPVI, expanded, on_terminal, read_vtu
 
 MPIRUN = sys.argv[1]  # runs.py has taken the program
 PROBES = {"spot/At": "0.5, 0.5, 0.1", "roof/On": "top", "cut/From": "0.2, 0.5, 0.1", "cut/To": "0.8, 0.5, 0.1", "cut/Points": "5"}
@@ -212,18 +211,8 @@ with tempfile.TemporaryDirectory() as scratch:
         assert "warning: friction acts where contact is open" in done, done
 
     # A terminal hears of steps within a step.
-    controller, terminal = pty.openpty()
-    process = subprocess.Popen([HPVI, "--output", str(scratch / "shown"), *SCENE], stdout=terminal)
-    os.close(terminal)
-    shown = b""
-    try:
-        while part := os.read(controller, 4096):
-            shown += part
-    except OSError:  # how Linux says that the other side is closed
-        pass
-    os.close(controller)
-    assert process.wait() == 0
-    assert re.search(rb"step 2: finding stick and slip: Newton step \d+, \d+ steps of conjugate gradients", shown), shown
+    shown = on_terminal([HPVI, "--output", str(scratch / "shown"), *SCENE])
+    assert re.search(r"step 2: finding stick and slip: Newton step \d+, \d+ steps of conjugate gradients", shown), shown
     assert b"finding stick" not in printed[1].encode()
 
     # What another program under mpirun has left in the environment silences nobody.
