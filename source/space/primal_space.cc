@@ -359,13 +359,6 @@ Tensor<1, dim> PrimalSpace<dim>::extent(const typename Triangulation<dim>::cell_
 }
 
 template <int dim>
-Point<dim> PrimalSpace<dim>::point_of(const typename Triangulation<dim>::cell_iterator &cell,
-                                      const Point<dim> &unit)
-{
-  return map_of<dim>(cell).point(unit);
-}
-
-template <int dim>
 const BoundaryCondition<dim> &PrimalSpace<dim>::condition(const Cell &cell,
                                                           const unsigned int face) const
 {

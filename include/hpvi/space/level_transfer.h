@@ -55,8 +55,6 @@ private:
                  const std::vector<dealii::types::global_dof_index> &bases);
   unsigned int coarse_nodes(const typename PrimalSpace<3>::Cell &cell);
   void share_rows();
-  template <typename Operation>
-  void for_each_coarse_value(unsigned int first, Operation &&operation) const;
 
   const MultigridLevel<float> &coarse, &fine;
   unsigned int n_nodes; ///< of a cell

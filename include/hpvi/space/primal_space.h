@@ -60,10 +60,6 @@ public:
   static dealii::Tensor<1, dim>
   extent(const typename dealii::Triangulation<dim>::cell_iterator &cell);
 
-  /** Where the point @p unit of the unit cell lies in @p cell. */
-  static dealii::Point<dim> point_of(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-                                     const dealii::Point<dim> &unit);
-
   const BoundaryCondition<dim> &condition(const Cell &cell, unsigned int face) const;
 
   /**
