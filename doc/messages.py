@@ -30,7 +30,7 @@ HOLDERS = {"ShapeFlaw": ("refused", "Geometry"), "Flaw": ("refused", "Material N
 PASSED_ON = {
     "base/parameter_file:fail", "base/processes:collectively", "base/file_format:reject", "checks/rejection:reject",
     "checks/rejection:check_value", "checks/method:check_primal_path", "checks/loading:check_load_steps", "checks/functions:check_friction", "checks/shape:check_geometry",
-    "checks/shape:check_materials", "driver/load_history:run", "driver/adaptive_solver:run", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
+    "checks/shape:check_materials", "driver/load_history:run", "driver/adaptive_solver:run", "gmsh/drawing_file:check_end", "gmsh/gmsh_text:damaged", "gmsh/gmsh_text:",
     "gmsh/mesh_complaint:", "gmsh/mesh_complaint:at", "gmsh/mesh_complaint:damaged", "scene/material:flaw_of", "input/sweep:reject",
     "input/parameters:reject", "shapes/shape:names_of_sides", "output/output:write_together", "output/output:take_up", "output/result_directory:path", "output/result_directory:take_lock",
     "driver/primal_backend:reach_loads", "driver/reduced_backend:discretise", "program/sweep_run:naming_values",

@@ -146,8 +146,14 @@ std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mes
   const std::string unit = unit_name(scene.length_unit);
   std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "";
   if (shape == "file")
-    shape = "mesh file " +
-            printable(std::filesystem::path(scene.parameters->text("Geometry", "File")).filename());
+  {
+    const std::string name =
+        printable(std::filesystem::path(scene.parameters->text("Geometry", "File")).filename());
+    shape = "mesh file " + name;
+    if constexpr (dim == 2)
+      if (!scene.geometry.mesh->origin.empty())
+        shape = name + ", " + scene.geometry.mesh->origin + ",";
+  }
   const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
   const auto ends = box.get_boundary_points();
   const unsigned int n = mesh.n_active_cells();

@@ -103,6 +103,8 @@ Scene<2> single_body(const Parameters &parameters, const std::string &name)
   single.parameters = parameters.with_section("Geometry", section_of_body(name));
   single.geometry = read_geometry<2>(*single.parameters);
   single.geometry.grading_levels = single.parameters->integer("Geometry", "Grading levels");
+  if (single.geometry.mesh)
+    single.remarks = single.geometry.mesh->remarks;
   if (single.geometry.shape != Shape::file &&
       !single.parameters->text("Geometry", "Surfaces").empty())
     single.parameters->reject("Geometry", "Surfaces",

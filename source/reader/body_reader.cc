@@ -195,8 +195,12 @@ void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> 
     read_bodies(parameters, names, scene);
   if constexpr (dim == 2)
     if (scene.geometry.shape == Shape::file || scene.geometry.shape == Shape::bodies)
+    {
+      for (const std::string &remark : scene.geometry.mesh->remarks)
+        scene.remarks.push_back(remark);
       for (const std::string &remark : remarks_on_polygons(*scene.geometry.mesh))
         scene.remarks.push_back(remark);
+    }
   if constexpr (dim == 3)
     if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry))
       for (const std::string &remark : remarks_on_facets(*mesh))

@@ -324,10 +324,10 @@ std::vector<Entry> scene_entries(const int dim, const UserNames &names)
     {
       add(entries, boundary_entries(side));
       if (names.is_from_file && dim == 2)
-        entries.push_back(curve_entry(side));
+        add(entries, curve_entries(side));
     }
   for (const std::string &interface : names.interfaces)
-    entries.push_back(curve_entry(interface));
+    add(entries, curve_entries(interface));
   for (const std::string &part : names.parts)
   {
     add(entries, part_entries(part, names.sides));

@@ -475,8 +475,8 @@ int scene_dimension(const ParameterFile &file)
 std::string default_parameters()
 {
   std::vector<Entry> entries = scene_entries(2, {{"NAME"}, {"NAME"}});
-  entries.push_back(curve_entry("NAME"));                              // of a mesh file alone
-  for (const auto &some : {body_entries("NAME"), pair_entries("NAME"), // of several bodies
+  for (const auto &some : {curve_entries("NAME"),                      // of a file alone
+                           body_entries("NAME"), pair_entries("NAME"), // of several bodies
                            probe_entries(2, "NAME")})
     entries.insert(entries.end(), some.begin(), some.end());
   return Parameters(entries, {}, "").print(true);

@@ -38,7 +38,7 @@ unknown "Boundary upper.left/Coefficient" '"Boundary upper.left/Friction coeffic
 unknown "Boundary upper.top/Force density" "Boundary upper.top has Displacement"
 unknown "Boundary upper.left/Loads" '"Boundary upper.left/Traction"'
 unknown "Body upper/Width" '"Body upper/Lower corner" and "Body upper/Upper corner"'
-unknown "Body upper/Mesh size" '"Body upper/Subdivisions"'
+unknown "Body upper/Mesh sise" '"Body upper/Mesh size"'
 unknown "Friction" '"Boundary lower.left/Friction bound"'
 unknown "Mesh" '"Body lower/Subdivisions"'
 unknown "Material soft/E" "\"Material soft/Young's modulus\""

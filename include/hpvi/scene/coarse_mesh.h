@@ -41,6 +41,9 @@ struct CoarseMesh
   std::vector<std::string> boundaries; ///< names by number; an empty one has no name, it is last
   std::vector<std::string> surfaces;   ///< likewise
   std::vector<std::string> interfaces; ///< of named curves inside, likewise
+  std::string origin = {};  ///< of a drawing what it is, as in "a STEP file, lengths in mm"
+  bool is_numbered = false; ///< are boundaries numbers of curves of a drawing?
+  std::vector<std::string> remarks = {}; ///< for users, on what its reader has changed
 };
 /** Curves of a mesh by the vertices of their edges, from the first to the second in either direction. */
 class EdgeCurves

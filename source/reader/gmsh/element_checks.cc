@@ -26,12 +26,10 @@ namespace
   const std::string name =
       kind.name == nullptr ? "elements of type " + std::to_string(first.type) : kind.name;
   const std::string remedy =
-      kind.dim == 3 ? "a body in the plane has none: set Dimension = 3, or save a plane one"
-      : kind.n_corners == 3
-          ? "a body has quadrilaterals alone: set Mesh.RecombineAll = 1; "
-            "Mesh.RecombinationAlgorithm "
-            "= 3; in the drawing"
-          : "a body has quadrilaterals of first or second order: mesh with -order 2 or -order 1";
+      kind.dim == 3
+          ? "a body in the plane has none: set Dimension = 3, or save a plane one"
+          : "a file of text has triangles and quadrilaterals of first or second order: mesh with "
+            "-order 2 or -order 1, or save it with -bin";
   complain.at(first.line,
               "the mesh has " + name + " (" + n + "), the first in this line; " + remedy);
 }
@@ -66,8 +64,6 @@ void check_elements(const GmshFile &file, const MeshComplaint &complain)
       refuse(file.elements, *found, complain);
   };
   refuse_any([](const GmshFile::Element &element) { return element_kind(element.type).dim == 3; });
-  refuse_any([](const GmshFile::Element &element)
-             { return element_kind(element.type).n_corners == 3; });
   refuse_any([](const GmshFile::Element &element)
              { return element_kind(element.type).n_nodes == 0; });
   unsigned int n_cells = 0, n = 0;

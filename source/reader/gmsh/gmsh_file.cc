@@ -14,14 +14,14 @@ ElementKind element_kind(const std::int64_t type)
 {
   static const std::map<std::int64_t, ElementKind> kinds = {
       {1, {"lines", 1, 2, 2}},
-      {2, {"triangles", 2, 0, 3}},
+      {2, {"triangles", 2, 3, 3}},
       {3, {"quadrilaterals", 2, 4, 4}},
       {4, {"tetrahedra", 3, 0, 4}},
       {5, {"hexahedra", 3, 8, 8}},
       {6, {"prisms", 3, 0, 6}},
       {7, {"pyramids", 3, 0, 5}},
       {8, {"lines", 1, 3, 2}},
-      {9, {"triangles", 2, 0, 3}},
+      {9, {"triangles", 2, 6, 3}},
       {10, {"quadrilaterals", 2, 9, 4}},
       {11, {"tetrahedra", 3, 0, 4}},
       {12, {"hexahedra", 3, 0, 8}},
@@ -49,6 +49,22 @@ std::string GmshFile::words(const Group &group) const
           : group.first == 2 ? "surface \""
                              : "volume \"") +
          (found == names.end() ? std::to_string(group.second) : printable(found->second, 40)) + '"';
+}
+
+void GmshFile::set_curve(const unsigned int from, const unsigned int to, const CurvePiece &piece)
+{
+  if (from < to)
+    curves[{{from, to}}] = piece;
+  else
+    curves[{{to, from}}] = piece.between(1, 0);
+}
+
+CurvePiece GmshFile::curve(const unsigned int from, const unsigned int to) const
+{
+  const auto found = curves.find({{std::min(from, to), std::max(from, to)}});
+  return found == curves.end() ? CurvePiece()
+         : from < to           ? found->second
+                               : found->second.between(1, 0);
 }
 
 namespace
@@ -191,7 +207,7 @@ private:
   }
 
   void add_element(const GmshRecords &records, const std::int64_t type, const std::int64_t group,
-                   const std::size_t first_word)
+                   const std::int64_t entity, const std::size_t first_word)
   {
     const ElementKind kind = element_kind(type);
     if (kind.n_nodes > 0 && records.n_words() != first_word + kind.n_nodes)
@@ -201,6 +217,7 @@ private:
     GmshFile::Element element;
     element.type = type;
     element.group = group;
+    element.entity = entity;
     element.line = records.line_number();
     for (unsigned int k = 0; k < kind.n_nodes; ++k)
     {
@@ -227,7 +244,7 @@ private:
         records.damaged("the element announces more tags than the line has");
       records.tag(0);
       add_element(records, records.integer(1), n_tags == 0 ? 0 : std::abs(records.integer(3)),
-                  3 + n_tags);
+                  n_tags < 2 ? 0 : std::abs(records.integer(4)), 3 + n_tags);
     }
     records.finish();
   }
@@ -243,14 +260,15 @@ private:
     {
       records.next("a block of elements", 4);
       const std::int64_t dim = records.integer(is_4_0() ? 1 : 0), type = records.integer(2);
-      const std::int64_t group = group_of(records, dim, records.integer(is_4_0() ? 0 : 1));
+      const std::int64_t entity = records.integer(is_4_0() ? 0 : 1);
+      const std::int64_t group = group_of(records, dim, entity);
       if (const ElementKind kind = element_kind(type); kind.name != nullptr && kind.dim != dim)
         records.damaged("a block of dimension " + std::to_string(dim) + " holds " + kind.name);
       for (std::size_t k = records.count(3, "elements"); k > 0; --k, ++n_read)
       {
         records.next("an element", 2);
         records.tag(0);
-        add_element(records, type, group, 1);
+        add_element(records, type, group, entity, 1);
       }
     }
     if (n_read != n_elements)

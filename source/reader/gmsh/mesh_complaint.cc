@@ -16,7 +16,7 @@ void MeshComplaint::operator()(const std::string &problem_and_remedy) const
 
 void MeshComplaint::at(const std::size_t line, const std::string &problem_and_remedy) const
 {
-  throw InputError(file + ":" + std::to_string(line) + ": " + problem_and_remedy);
+  throw InputError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + problem_and_remedy);
 }
 
 void MeshComplaint::damaged(const std::size_t line, const std::string &problem) const

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/cell_checks.h>
+#include <hpvi/reader/gmsh/curve_numbers.h>
 #include <hpvi/reader/gmsh/element_checks.h>
 #include <hpvi/reader/gmsh/gmsh_file.h>
 #include <hpvi/reader/gmsh/mesh_file.h>
 #include <hpvi/reader/gmsh/mesh_groups.h>
+#include <hpvi/reader/gmsh/polynomial_edge.h>
 #include <hpvi/reader/gmsh/quadratic_edge.h>
+#include <hpvi/reader/gmsh/quadrilaterals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +26,8 @@ class MeshMaker
 {
 public:
   MeshMaker(const GmshFile &file, const std::vector<std::string> &surfaces,
-            const MeshComplaint &complain)
-      : file(file), wanted(surfaces), complain(complain),
+            const DrawingRequest &request, const MeshComplaint &complain)
+      : file(file), wanted(surfaces), request(request), complain(complain),
         vertex_of(file.nodes.size(), CoarseMesh::inside)
   {
   }
@@ -40,6 +43,9 @@ public:
     check_connection(mesh, edges, complain);
     take_middles(edges);
     take_edges(edges, edge_groups(edges));
+    mesh.origin = file.origin;
+    mesh.is_numbered = file.is_numbered;
+    mesh.remarks = file.remarks;
     return std::move(mesh);
   }
 
@@ -173,12 +179,14 @@ private:
   /** The tag of the physical curve on each edge; 0: none. */
   std::vector<std::int64_t> edge_groups(const CellEdges &edges) const
   {
+    if (std::all_of(file.elements.begin(), file.elements.end(), is_cell))
+      return numbered_edges(edges);
     std::vector<std::int64_t> groups(edges.all().size(), 0);
     for (const GmshFile::Element &element : file.elements)
     {
       if (is_cell(element) || element.group == 0)
         continue;
-      if (is_loose(edges, element))
+      if (is_loose(edges, element) && !file.is_numbered)
         refuse_loose_lines(edges, element);
       const unsigned int e = edge_between(edges, element.nodes[0], element.nodes[1]);
       if (e == CoarseMesh::inside)
@@ -191,6 +199,14 @@ private:
       groups[e] = element.group;
     }
     return groups;
+  }
+
+  std::vector<std::int64_t> numbered_edges(const CellEdges &edges) const
+  {
+    std::vector<CurvePiece> curves;
+    for (unsigned int e = 0; e < edges.all().size(); ++e)
+      curves.push_back(curved_edge(edges.all()[e].vertices, middles[e]).curve);
+    return groups_between_corners(mesh, edges, curves, request, complain);
   }
 
   [[noreturn]] void refuse_loose_lines(const CellEdges &edges, const GmshFile::Element &first) const
@@ -243,11 +259,14 @@ private:
   }
 
   CoarseMesh::Edge curved_edge(const std::array<unsigned int, 2> &vertices,
-                               const unsigned int middle)
+                               const unsigned int middle) const
   {
     CoarseMesh::Edge edge;
     edge.vertices = vertices;
-    if (middle == CoarseMesh::inside)
+    edge.curve = file.curve(nodes[vertices[0]], nodes[vertices[1]]);
+    if (edge.curve)
+      check_curve(edge);
+    if (edge.curve || middle == CoarseMesh::inside)
       return edge;
     const GmshFile::Node &node = file.nodes[middle];
     const auto curve = std::make_shared<QuadraticEdge>(
@@ -264,8 +283,23 @@ private:
     return edge;
   }
 
+  /** Of elements of higher order: a curve that is a line is none. */
+  void check_curve(CoarseMesh::Edge &edge) const
+  {
+    const auto *const polynomial = dynamic_cast<const PolynomialEdge *>(edge.curve.curve.get());
+    const auto *const quadratic = dynamic_cast<const QuadraticEdge *>(edge.curve.curve.get());
+    if ((polynomial && !polynomial->is_regular()) || (quadratic && !quadratic->is_regular()))
+      complain(
+          "the edge " + edge_in_words(mesh, edge.vertices) +
+          " is on a curve that turns back; mesh finer" +
+          (file.is_drawing ? ", as with Mesh size from curvature = 16" : ", or with -order 1"));
+    if ((polynomial && polynomial->bow() <= 1e-10) || (quadratic && quadratic->bow() <= 1e-10))
+      edge.curve = {};
+  }
+
   const GmshFile &file;
   const std::vector<std::string> &wanted;
+  const DrawingRequest &request;
   const MeshComplaint &complain;
   CoarseMesh mesh;
   std::set<std::pair<unsigned int, unsigned int>> left_out; ///< edges of other surfaces, by nodes
@@ -279,11 +313,14 @@ private:
 };
 } // namespace
 
-CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string> &surfaces)
+CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string> &surfaces,
+                          const DrawingRequest &request)
 {
-  const GmshFile file = read_gmsh_file(path);
+  GmshFile file = read_drawing(path, 2, request);
   const MeshComplaint complain(path);
+  number_groups(file, request, complain);
   check_elements(file, complain);
-  return MeshMaker(file, surfaces, complain).make();
+  make_quadrilaterals(file, complain);
+  return MeshMaker(file, surfaces, request, complain).make();
 }
 } // namespace hpvi

@@ -159,6 +159,15 @@ bool Parameters::boolean(const std::string &section, const std::string &name) co
   return prm.get_bool({own(section)}, name);
 }
 
+std::vector<std::string> Parameters::sections_with(const std::string &name) const
+{
+  std::vector<std::string> result;
+  for (const Entry &entry : entries)
+    if (entry.name == name && !text(entry.section, name).empty())
+      result.push_back(entry.section);
+  return result;
+}
+
 bool Parameters::has(const std::string &section, const std::string &name) const
 {
   return std::any_of(entries.begin(), entries.end(),

@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
+#include <hpvi/reader/gmsh/drawing_kind.h>
 #include <hpvi/reader/gmsh/mesh_file.h>
 #include <hpvi/reader/gmsh/quadratic_edge.h>
 #include <hpvi/reader/shapes/curve_fit.h>
@@ -98,24 +99,63 @@ void check_surfaces(const Parameters &parameters, const std::vector<std::string>
                             listed(mesh.surfaces, "and"));
 }
 
+/** Numbers that its entry `Curves` has. */
+void take_curves(const std::string &name, const std::string &numbers, DrawingRequest &request)
+{
+  for (const std::string &word : words_in(numbers))
+    if (!word.empty() && word.size() < 10 &&
+        word.find_first_not_of("0123456789") == std::string::npos)
+      request.curves[std::stoi(word)] = name;
+}
+
+/** What a section says of a drawing, by the texts of its entries. */
+DrawingRequest request_of(const GeometryText &text)
+{
+  DrawingRequest request;
+  const auto number = [&](const std::string &entry, const double otherwise)
+  {
+    const std::string value = text(entry);
+    return value.empty() || value.find_first_not_of("0123456789.eE+-") != std::string::npos
+               ? otherwise
+               : std::strtod(value.c_str(), nullptr);
+  };
+  request.size = number("Mesh size", 0);
+  request.curvature = number("Mesh size from curvature", request.curvature);
+  request.unit = text("Length unit");
+  return request;
+}
+
+/** Those of the body whose boundaries begin with @p prefix. */
+DrawingRequest request_of(const Parameters &parameters, const std::string &prefix)
+{
+  DrawingRequest request =
+      request_of([&](const std::string &entry) { return parameters.text("Geometry", entry); });
+  const std::string start = "Boundary " + prefix;
+  for (const std::string &section : parameters.sections_with("Curves"))
+    if (section.compare(0, start.size(), start) == 0)
+      take_curves(section.substr(start.size()), parameters.text(section, "Curves"), request);
+  return request;
+}
+
 void read_file(const Parameters &parameters, Geometry<2> &geometry)
 {
   const std::string file = parameters.text("Geometry", "File");
   if (file.empty())
-    parameters.reject("Geometry", "File", "names no mesh; give a file of Gmsh, as body.msh");
-  const std::string path = beside(parameters.file_name(), file);
+    parameters.reject("Geometry", "File",
+                      "names no mesh; give a drawing or a mesh, as body.step or body.msh");
+  const std::string path = beside(parameters.file_name(), file),
+                    body = parameters.standing_for("Geometry");
+  const auto prefix = body.empty() ? "" : body.substr(body.find(' ') + 1) + ".";
   const std::vector<std::string> surfaces = parameters.has("Geometry", "Surfaces")
                                                 ? words_in(parameters.text("Geometry", "Surfaces"))
                                                 : std::vector<std::string>();
-  CoarseMesh mesh = read_mesh_file(path, surfaces);
+  CoarseMesh mesh = read_mesh_file(path, surfaces, request_of(parameters, prefix));
   check_surfaces(parameters, surfaces, mesh);
   if (const unsigned int n = n_parts(mesh); n > 1)
     throw InputError(printable(path, 400) + ": the cells make " + std::to_string(n) +
                      " parts that no edge connects, and a body is one part; save a file for each, "
                      "let them share a curve, or open a subsection Body NAME for each with its "
                      "Surfaces");
-  const std::string body = parameters.standing_for("Geometry");
-  const auto prefix = body.empty() ? "" : body.substr(body.find(' ') + 1) + ".";
   for (unsigned int b = 0; b < mesh.boundaries.size(); ++b)
     if (!mesh.boundaries[b].empty())
       bend(parameters, prefix + mesh.boundaries[b], edges_of(mesh, &CoarseMesh::Edge::boundary, b),
@@ -143,16 +183,21 @@ void require_names(const std::vector<std::string> &boundaries, const std::string
                      (kind == "curve" ? "Curve" : "Surface") + "(\"left\") = {4};");
 }
 
-Entry curve_entry(const std::string &name)
+std::vector<Entry> curve_entries(const std::string &name)
 {
-  return {"Boundary " + name,
-          "Curve",
-          "",
-          std::make_shared<Patterns::Selection>("|circle|spline"),
-          "circle, spline or nothing",
-          "What the edges of a mesh file follow here: circle: the circle of best fit through their "
-          "vertices, from corner to corner; spline: a cubic spline through them; empty: straight "
-          "edges, or those of second order that the file has."};
+  return {{"Boundary " + name, "Curve", "", std::make_shared<Patterns::Selection>("|circle|spline"),
+           "circle, spline or nothing",
+           "What the edges of a mesh file follow here: circle: the circle of best fit through "
+           "their "
+           "vertices, from corner to corner; spline: a cubic spline through them; empty: straight "
+           "edges, or the curves that the file has."},
+          {"Boundary " + name, "Curves", "",
+           std::make_shared<Patterns::List>(Patterns::Integer(1, 99999999), 0,
+                                            Patterns::List::max_int_value, ","),
+           "numbers of curves \"3, 5\" or nothing",
+           "The curves of a drawing that have this name, by the numbers that --validate and "
+           "--picture tell; of a mesh without curves those of the parts of its boundary between "
+           "corners of more than 30 degrees; empty: those of the physical group of this name."}};
 }
 
 std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh)
@@ -183,28 +228,53 @@ std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh)
   return result;
 }
 
+namespace
+{
+std::vector<Entry> drawing_entries()
+{
+  return {{"Geometry", "File", "", std::make_shared<Patterns::Anything>(), "a file name or nothing",
+           "A drawing: STEP, IGES, BREP or a script .geo of Gmsh, which is run as such; or a mesh: "
+           ".msh, .unv, .bdf or .vtk, of triangles, quadrilaterals or both; a path relative to "
+           "that of the scene."},
+          {"Geometry", "Length unit", "",
+           std::make_shared<Patterns::Selection>("|mm|cm|m|um|km|inch|ft"),
+           std::string(length_units) + ", or nothing",
+           "Lengths of a STEP or IGES file are turned into this unit; empty: they stay in that of "
+           "the file."},
+          {"Geometry", "Mesh size", "", word_or("", Patterns::Double(1e-100)),
+           "a positive number or nothing",
+           "Size of the largest cells of a drawing [length]; empty: a quarter of the larger side "
+           "of its box, or what a script says."},
+          {"Geometry", "Mesh size from curvature", "12", std::make_shared<Patterns::Double>(0, 1000),
+           "a number from 0 to 1000",
+           "How many cells of a drawing there are along curves at least, per full turn; 0: no "
+           "matter how they turn."}};
+}
+} // namespace
+
 ShapeKind<2> mesh_from_file()
 {
-  return {
-      Shape::file,
-      "file",
-      "file: quadrilaterals of a mesh file of Gmsh, given by File; its boundaries are the "
-      "physical curves.",
-      {{"Geometry", "File", "", std::make_shared<Patterns::Anything>(), "a file name or nothing",
-        "Mesh file of Gmsh, format 4.1 or 2.2, ASCII, with quadrilaterals, physical curves and "
-        "physical surfaces; a path relative to that of the scene."}},
-      "File",
-      read_file,
-      nullptr,
-      [](const GeometryText &text)
-      {
-        const std::string file = text("File");
-        if (file.empty())
-          return SideNames();
-        const CoarseMesh mesh = read_mesh_file(file, words_in(text("Surfaces")));
-        require_names(mesh.boundaries, file, "curve");
-        return SideNames{mesh.boundaries, mesh.interfaces, true};
-      },
-      false};
+  return {Shape::file,
+          "file",
+          "file: what a drawing or a mesh file has, given by File; its boundaries are the physical "
+          "curves, or the curves by their numbers.",
+          drawing_entries(),
+          "File",
+          read_file,
+          nullptr,
+          [](const GeometryText &text)
+          {
+            const std::string file = text("File");
+            if (file.empty())
+              return SideNames();
+            DrawingRequest request = request_of(text);
+            for (const std::string &line : Utilities::split_string_list(text("Curves of all"), ';'))
+              if (const std::size_t equals = line.find('='); equals != std::string::npos)
+                take_curves(line.substr(0, equals), line.substr(equals + 1), request);
+            const CoarseMesh mesh = read_mesh_file(file, words_in(text("Surfaces")), request);
+            require_names(mesh.boundaries, file, "curve");
+            return SideNames{mesh.boundaries, mesh.interfaces, true};
+          },
+          false};
 }
 } // namespace hpvi

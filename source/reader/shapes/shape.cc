@@ -230,13 +230,21 @@ SideNames names_of_sides(const ParameterFile &file, const std::string &section)
   std::map<std::string, std::string> values;
   for (const Entry &entry : geometry_entries<dim>())
     values[entry.name] = entry.default_value;
+  std::map<std::string, std::string> curves; // of boundaries, without the name of the body
+  const std::string own = section == "Geometry" ? "" : section.substr(section.find(' ') + 1) + ".";
   std::vector<std::string> opened; // sections of boundaries
   const std::string boundary = "Boundary ";
   for (const Assignment &one : file.assignments)
     if (one.section == section)
       values[one.name] = one.value;
     else if (one.section.rfind(boundary, 0) == 0 && one.name != "On")
+    {
       opened.push_back(one.section.substr(boundary.size()));
+      if (one.name == "Curves" && one.section.compare(boundary.size(), own.size(), own) == 0)
+        curves[one.section.substr(boundary.size() + own.size())] = one.value;
+    }
+  for (const auto &[name, numbers] : curves)
+    values["Curves of all"] += name + "=" + numbers + ";";
   std::sort(opened.begin(), opened.end());
   opened.erase(std::unique(opened.begin(), opened.end()), opened.end());
   if (const std::string prefix = section.substr(section.find(' ') + 1) + "."; section != "Geometry")

@@ -2,6 +2,8 @@
 #ifndef hpvi_gmsh_file_h
 #define hpvi_gmsh_file_h
 
+#include <hpvi/scene/curve.h>
+
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -24,7 +26,7 @@ struct ElementKind
 
 ElementKind element_kind(std::int64_t type);
 
-/** What stands in a mesh file of Gmsh: nodes and elements in its order, names of physical groups. */
+/** What stands in a mesh file, or in what a drawing was meshed to: nodes and elements in its order, names of physical groups. */
 struct GmshFile
 {
   using Group = std::pair<unsigned int, std::int64_t>; ///< dimension, tag
@@ -38,8 +40,9 @@ struct GmshFile
   struct Element
   {
     std::int64_t type;
-    std::int64_t group = 0; ///< tag of its physical group; 0: none
-    std::size_t line = 0;   ///< of the file
+    std::int64_t group = 0;  ///< tag of its physical group; 0: none
+    std::int64_t entity = 0; ///< tag of the curve, surface or volume of the drawing; 0: unknown
+    std::size_t line = 0;    ///< of the file; 0: it is no text of ours
     std::array<unsigned int, 9> nodes =
         {}; ///< indices into nodes: corners, middles of edges, the centre
   };
@@ -48,6 +51,15 @@ struct GmshFile
   std::vector<Node> nodes;
   std::vector<Element> elements; ///< but for points
   std::map<Group, std::string> names;
+  std::map<std::array<unsigned int, 2>, CurvePiece> curves; ///< between nodes, the smaller first
+  bool is_drawing = false;                                  ///< have we meshed it?
+  bool is_numbered = false; ///< are its curves called by their numbers, as they are in no groups?
+  std::string origin = {};  ///< what the file is, for users
+  std::vector<std::string> remarks = {}; ///< on what became of it
+
+  void set_curve(unsigned int from, unsigned int to, const CurvePiece &piece);
+  CurvePiece curve(unsigned int from,
+                   unsigned int to) const; ///< none: straight, or by nodes of elements
 
   /** In quotes, with the word curve or surface: of a group without a name its tag. */
   std::string words(const Group &group) const;

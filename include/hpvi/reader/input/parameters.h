@@ -51,6 +51,9 @@ public:
 
   bool has(const std::string &section, const std::string &name) const; ///< is there such an entry?
 
+  /** Sections in which an entry of this name has a value, in the order of the entries. */
+  std::vector<std::string> sections_with(const std::string &name) const;
+
   /** The same with @p other wherever @p section is asked for: each body has a section with the entries of Geometry. */
   std::shared_ptr<const Parameters> with_section(const std::string &section,
                                                  const std::string &other) const;

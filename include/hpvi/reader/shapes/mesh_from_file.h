@@ -6,14 +6,14 @@
 
 namespace hpvi
 {
-/** The mesh of a file of Gmsh (read_mesh_file()), for the list of shapes(). */
+/** The mesh of a drawing or a mesh file (read_mesh_file()), for the list of shapes(). */
 ShapeKind<2> mesh_from_file();
 
 /** Where a scene file @p scene finds the file that it calls @p name: beside itself, unless that is a whole path. */
 std::string beside(const std::string &scene, const std::string &name);
 
-/** Of a boundary, or an interface of a mesh: what its edges follow. */
-Entry curve_entry(const std::string &name);
+/** Of a boundary, or an interface of a mesh: what its edges follow, and of which curves it consists. */
+std::vector<Entry> curve_entries(const std::string &name);
 
 /** Throws InputError where no boundary has a name; @p kind: curve or surface. */
 void require_names(const std::vector<std::string> &boundaries, const std::string &file,

@@ -18,7 +18,10 @@ struct ShapeFlaw
   std::string entry, problem, value;
 };
 
-/** The value of an entry of the section `Geometry`, before it is checked. */
+/**
+ * The value of an entry of the section `Geometry`, before it is checked; of "Curves of all" those that boundaries name, as in
+ * "left=1, 2;right=3;".
+ */
 using GeometryText = std::function<std::string(const std::string &entry)>;
 
 /** Names that say what sections of boundaries there may be. */
