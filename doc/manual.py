@@ -32,7 +32,8 @@ MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 EXAMPLES = {
     ("Geometry", "Centre"): "1, 1", ("Geometry", "Radii"): "1, 2", ("Geometry", "Angles"): "0, 120",
     ("Geometry", "Radius"): "0.25", ("Geometry", "Angle"): "180", ("Geometry", "Part"): "quarter",
-    ("Geometry", "File"): "body.msh", ("Boundary NAME", "Curve"): "circle",
+    ("Geometry", "File"): "body.msh", ("Boundary NAME", "Curve"): "circle", ("Boundary NAME", "Curves"): "4",
+    ("Geometry", "Length unit"): "cm", ("Geometry", "Mesh size"): "0.4", ("Geometry", "Mesh size from curvature"): "16",
     ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
     ("Boundary NAME", "Contact direction"): "0.1; -1",
     ("Body NAME", "Surfaces"): "liner, shell", ("Contact NAME", "Friction law"): "limited",
@@ -40,7 +41,7 @@ EXAMPLES = {
     ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
     ("Material", "Elasticity"): "orthotropic", ("Material", "Young's moduli"): "11000, 500, 700",
     ("Material", "Poisson's ratios"): "0.4, 0.35, 0.4", ("Material", "Shear moduli"): "700",
-    ("Material", "Angle"): "30",
+    ("Material", "Angle"): "30", ("Material NAME", "Surfaces"): "1",
     ("Adaptivity", "hap threshold"): "0.7", ("Adaptivity", "hpa1 bisected fraction"): "0.05",
     ("Adaptivity", "hpa1 raised fraction"): "0.2", ("Adaptivity", "Maximum seconds"): "60",
     ("Solver", "Path"): "reduced", ("Solver", "Linear"): "direct",
@@ -57,7 +58,8 @@ EXAMPLES = {
 
 # Scenes in which entries of the other shapes are tried.
 SHAPES = {"Centre": "half_disc", "Radii": "ring", "Angles": "ring", "Radius": "half_disc", "Angle": "half_disc", "Part": "plate",
-          "File": "mesh", "Curve": "mesh"}
+          "File": "mesh", "Curve": "mesh", "Curves": "drawing", "Length unit": "drawing", "Mesh size": "drawing",
+          "Mesh size from curvature": "drawing"}
 ORTHOTROPIC = ("Elasticity", "Young's moduli", "Poisson's ratios", "Shear moduli", "Angle")
 
 

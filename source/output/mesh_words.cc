@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/mesh_words.h>
@@ -57,9 +58,12 @@ struct Total
 {
   unsigned int n = 0, n_curved = 0;
   double size = 0;
+  Point<2> from, to; ///< of the first edge and of the last
 
   void add(const CoarseMesh &mesh, const CoarseMesh::Edge &edge)
   {
+    from = n == 0 ? mesh.vertices[edge.vertices[0]] : from;
+    to = mesh.vertices[edge.vertices[1]];
     ++n;
     n_curved += bool(edge.curve);
     size += length(mesh, edge);
@@ -75,6 +79,14 @@ struct Total
   }
 };
 
+/** Which curve of a drawing is which. */
+std::string ends_in_words(const Total &curve)
+{
+  const auto place = [](const Point<2> &x)
+  { return "(" + text(x[0], 6) + ", " + text(x[1], 6) + ")"; };
+  return ", from " + place(curve.from) + " to " + place(curve.to);
+}
+
 void add_edges(const CoarseMesh &mesh, const std::string &unit, std::vector<std::string> &lines)
 {
   std::vector<Total> boundaries(mesh.boundaries.size()), interfaces(mesh.interfaces.size());
@@ -86,7 +98,8 @@ void add_edges(const CoarseMesh &mesh, const std::string &unit, std::vector<std:
   for (unsigned int b = 0; b < boundaries.size(); ++b)
     lines.push_back((mesh.boundaries[b].empty() ? "boundary without a name, free"
                                                 : "boundary " + mesh.boundaries[b]) +
-                    ": " + boundaries[b].words(unit));
+                    ": " + boundaries[b].words(unit) +
+                    (mesh.is_numbered ? ends_in_words(boundaries[b]) : ""));
   for (unsigned int i = 0; i < interfaces.size(); ++i)
     lines.push_back("curve inside " + mesh.interfaces[i] + ": " + interfaces[i].words(unit));
 }

@@ -14,6 +14,7 @@
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <iterator>
@@ -97,16 +98,45 @@ void read_materials(const Parameters &parameters, const std::vector<std::string>
   scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
 }
 
-/** Materials that have the name of a surface of the mesh are those of it. */
+/** Surfaces of the mesh that a material names; none: that of its name. */
+std::vector<std::string> surfaces_of(const Parameters &parameters, const Material &material,
+                                     const std::vector<std::string> &surfaces)
+{
+  const std::string section = section_of_material(material.name);
+  if (!parameters.has(section, "Surfaces") || parameters.text(section, "Surfaces").empty())
+    return {material.name};
+  const std::vector<std::string> named =
+      Utilities::split_string_list(parameters.text(section, "Surfaces"), ',');
+  for (const std::string &name : named)
+    if (std::find(surfaces.begin(), surfaces.end(), name) == surfaces.end())
+      parameters.reject(section, "Surfaces",
+                        surfaces.empty()
+                            ? "are those of a drawing or a mesh file; set Shape = file, or Where"
+                            : "names " + printable(name) + ", which the mesh has not; it has " +
+                                  listed(surfaces, "and"));
+  return named;
+}
+
+/** By surface of the mesh. */
 std::vector<std::optional<types::material_id>>
-materials_of_surfaces(const std::vector<std::string> &surfaces,
+materials_of_surfaces(const Parameters &parameters, const std::vector<std::string> &surfaces,
                       const std::vector<Material> &materials)
 {
   std::vector<std::optional<types::material_id>> result(surfaces.size());
-  for (unsigned int s = 0; s < surfaces.size(); ++s)
-    for (unsigned int m = 1; m < materials.size(); ++m)
-      if (materials[m].name == surfaces[s])
+  for (unsigned int m = 1; m < materials.size(); ++m)
+  {
+    const std::vector<std::string> own = surfaces_of(parameters, materials[m], surfaces);
+    for (unsigned int s = 0; s < surfaces.size(); ++s)
+      if (std::find(own.begin(), own.end(), surfaces[s]) != own.end())
+      {
+        if (result[s])
+          parameters.reject(section_of_material(materials[m].name), "Surfaces",
+                            "names " + surfaces[s] + ", which is made of " +
+                                section_of_material(materials[*result[s]].name) +
+                                " already; name it once");
         result[s] = m;
+      }
+  }
   return result;
 }
 
@@ -116,7 +146,7 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
   std::vector<std::string> surfaces;
   if (scene.geometry.shape == Shape::file)
     surfaces = scene.geometry.mesh->surfaces;
-  scene.material_of_surface = materials_of_surfaces(surfaces, scene.materials);
+  scene.material_of_surface = materials_of_surfaces(parameters, surfaces, scene.materials);
   if constexpr (dim == 2)
     if (scene.geometry.shape == Shape::bodies)
       scene.material_of_surface = materials_of_bodies(parameters, scene);
@@ -132,7 +162,9 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
   {
     const std::string section = section_of_material(scene.materials[m].name);
     const bool is_surface =
-        std::find(surfaces.begin(), surfaces.end(), scene.materials[m].name) != surfaces.end();
+        !surfaces.empty() &&
+        std::find(scene.material_of_surface.begin(), scene.material_of_surface.end(),
+                  std::optional<types::material_id>(m)) != scene.material_of_surface.end();
     wheres.emplace_back();
     if (is_surface && !parameters.text(section, "Where").empty())
       parameters.reject(section, "Where",

@@ -175,6 +175,12 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
                        "cell of the coarse mesh; materials are tried in the order of the file, the "
                        "unnamed one is the rest. A box gets a grid line where a side of the "
                        "material has none."});
+  if (inherited.is_named && dim == 2)
+    entries.push_back({section_of_material(name), "Surfaces", "",
+                       std::make_shared<Patterns::Anything>(),
+                       "names or numbers of surfaces \"1, 2\" or nothing",
+                       "The surfaces of a drawing or a mesh file that are made of this material; "
+                       "empty: that of the same name."});
   // Nothing, as scene.prm has them, is for orthotropic materials alone.
   const auto number_or_nothing = [dim](const Patterns::Double &number)
   { return dim == 2 ? word_or("", number) : Pattern(number.clone()); };

@@ -24,7 +24,7 @@ foreign() { # BASE NAME ENTRY=VALUE:SHAPE...
 }
 foreign ring.prm "ring sector" "Geometry/Corners=0,0; 1,0; 1,1; 0,1:quadrilateral" "Geometry/Lower corner=1, 1:box" \
   "Geometry/Upper corner=5, 5:box" "Geometry/Radius=2:half disc" "Geometry/Angle=3:half disc" \
-  "Geometry/Part=quarter:plate with hole" "Geometry/File=body.msh:file"
+  "Geometry/Part=quarter:plate with hole" "Geometry/File=body.msh:file" "Geometry/Mesh size=1:file" "Geometry/Length unit=mm:file"
 foreign half_disc.prm "half disc" "Geometry/Corners=0,0; 1,0; 1,1; 0,1:quadrilateral" "Geometry/Radii=1, 3:ring sector" \
   "Geometry/Angles=0, 180:ring sector" "Geometry/Upper corner=5, 5:box" "Geometry/Part=quarter:plate with hole"
 foreign plate.prm "plate with hole" "Geometry/Corners=0,0; 1,0; 1,1; 0,1:quadrilateral" "Geometry/Radii=1, 3:ring sector" \

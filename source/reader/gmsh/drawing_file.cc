@@ -309,11 +309,12 @@ GmshFile read_drawing(const std::string &path, const unsigned int dim,
                       const DrawingRequest &request, const DrawingLimits &limits)
 {
   const DrawingKind kind = kind_of_drawing(path);
+  const MeshComplaint complain(path);
   if (kind.has_cells() && request.size > 0)
-    MeshComplaint(path)("is a mesh, of which Mesh size changes nothing; remove it");
+    complain("is a mesh, of which Mesh size changes nothing; remove it");
   if (is_for_own_reader(path, kind))
   {
-    wanted_unit(kind, request, MeshComplaint(path));
+    wanted_unit(kind, request, complain);
     return read_gmsh_file(path);
   }
   static std::map<Key, GmshFile> known;
