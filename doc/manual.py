@@ -236,7 +236,7 @@ def entries_page(program):
 
 
 def with_results(text, program, directory):
-    """What a page asks for is computed: a scene that it says to write is written, `@RUN arguments@` gives way to the
+    """What a page asks for is computed: a scene or a drawing that it says to write is written, `@RUN arguments@` gives way to the
     command and what it prints, `@RUN 2: arguments@` if it ends with status 2, `@LINES k from "words": arguments@` to k of
     these lines, `@ROWS NAME: columns; k@` to k rows, evenly spaced, of the last contact table of the run NAME,
     `@TABLE NAME/FILE.csv: columns@` to the rows of another one, `@JSON NAME: member@` to that member of its summary.json,
@@ -288,7 +288,7 @@ def with_results(text, program, directory):
         return f"![{match[2]}]({name})"
 
     directory.mkdir(exist_ok=True)
-    for name, scene in re.findall(r"`(\w+\.prm)`:\n\n```\n(.*?)```", text, re.S):
+    for name, scene in re.findall(r"`(\w+\.(?:prm|geo))`:\n\n```\n(.*?)```", text, re.S):
         (directory / name).write_text(scene)
     text = re.sub(r"^@RUN (?:(\d): )?(.*)@$", printed, doxygen_math(text), flags=re.M)
     text = re.sub(r"^@LINES (\d+) from \"(.*?)\": (.*)@$", excerpt, text, flags=re.M)
@@ -359,7 +359,7 @@ def main():
 
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "pairs", "space", "processes", "probes", "paraview",
+    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "drawings", "pairs", "space", "processes", "probes", "paraview",
                  "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns"):
         pages[name] = with_results(linked((PAGES / f"{name}.md").read_text(), PAGES), program, output / "runs")
     for name in OF_REPOSITORY:

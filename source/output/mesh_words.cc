@@ -121,6 +121,13 @@ void add_surfaces(const CoarseMesh &mesh, const std::string &unit, std::vector<s
 }
 } // namespace
 
+std::vector<std::string> boundaries_in_words(const CoarseMesh &mesh, const std::string &length_unit)
+{
+  std::vector<std::string> lines;
+  add_edges(mesh, length_unit, lines);
+  return lines;
+}
+
 std::vector<std::string> mesh_words(const CoarseMesh &mesh, const std::string &length_unit)
 {
   const CellFlaw widest = worst_cell(mesh);

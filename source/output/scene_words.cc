@@ -215,8 +215,12 @@ template <int dim>
 std::string mesh_in_words(const Scene<dim> &scene)
 {
   std::string lines;
+  if constexpr (dim == 2)
+    if (scene.geometry.shape == Shape::bodies && scene.geometry.mesh->is_numbered)
+      for (const std::string &line : boundaries_in_words(*scene.geometry.mesh, scene.length_unit))
+        lines += line + "\n";
   if (scene.geometry.shape != Shape::file || !scene.geometry.mesh)
-    return {};
+    return lines;
   std::vector<std::string> words;
   if constexpr (dim == 2)
     words = mesh_words(*scene.geometry.mesh, scene.length_unit);

@@ -48,6 +48,7 @@ void append(const CoarseMesh &own, const unsigned int body, const unsigned int f
   all.vertices.insert(all.vertices.end(), own.vertices.begin(), own.vertices.end());
   for (CoarseMesh::Cell cell : own.cells)
   {
+    all.is_numbered = all.is_numbered || own.is_numbered;
     for (unsigned int &vertex : cell.vertices)
       vertex += first_vertex;
     cell.surface += first_surface;

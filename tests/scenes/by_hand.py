@@ -469,6 +469,7 @@ ROWS = [
     ("brake-shoe.prm", SCENES / "brake-shoe.prm", {"forces.outer.1": -400, "forces.inner.0+forces.outer.0": 0}),
     ("ssnp154.prm", SCENES / "ssnp154.prm",
      {"contact.cylinder.arc (line).force.1": 35000, "forces.block.bottom.1": 35000, "forces.block.bottom.0": 0, "plates.cylinder.flat.moment": 0}),
+    ("lug.prm", SCENES / "lug.prm", {"forces.pin.bore.0": -4000, "forces.pin.bore.1": 0, "forces.lug.bore.0": -4000}),
     ("bush.prm", SCENES / "bush.prm",
      {"contact.bush.outer.friction_resultant": 2 * math.pi * 30 * 5 / 2.25,
       "contact.bush.outer.normal_resultant": -2 * math.pi * 0.03 / ((1300 / 500 - 0.34) / 110000 + (2925 / 1125 + 0.3) / 210000)}),
