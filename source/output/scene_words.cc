@@ -150,9 +150,8 @@ std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mes
     const std::string name =
         printable(std::filesystem::path(scene.parameters->text("Geometry", "File")).filename());
     shape = "mesh file " + name;
-    if constexpr (dim == 2)
-      if (!scene.geometry.mesh->origin.empty())
-        shape = name + ", " + scene.geometry.mesh->origin + ",";
+    if (!scene.geometry.mesh->origin.empty())
+      shape = name + ", " + scene.geometry.mesh->origin + ",";
   }
   const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
   const auto ends = box.get_boundary_points();

@@ -235,8 +235,11 @@ void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> 
     }
   if constexpr (dim == 3)
     if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry))
+    {
+      scene.remarks = mesh->remarks;
       for (const std::string &remark : remarks_on_facets(*mesh))
         scene.remarks.push_back(remark);
+    }
   read_materials(parameters, names.materials, scene);
   if constexpr (dim == 2)
     if (scene.is_axisymmetric())

@@ -117,7 +117,7 @@ foot() {
 }
 "$hpvi" --validate prm/foot.prm >/dev/null || failures=1
 foot "foot.msh:" "is not plane" "curved faces are not offered" -- '/^1 -2 0 -2$/s/.*/1 -2 0.1 -2.2/'
-foot "tetrahedra (1)" "the first in this line" "transfinite" -- 's/^50 5 2 4 1 .*/50 4 2 4 1 1 2 3 7/'
+foot "pyramids (1)" "the first in this line" "transfinite" -- 's/^50 5 2 4 1 .*/50 7 2 4 1 1 2 3 4 7/'
 foot "hexahedra of second or higher order" "-order 1" -- 's/^50 5 2/50 17 2/'
 foot "is in no physical volume" -- 's/^50 5 2 4/50 5 2 0/'
 foot "has a face of no cell" -- 's/^1 3 2 1 1 .*/1 3 2 1 1 1 2 3 4/'

@@ -2,6 +2,9 @@
 // Drawings of CAD and meshes of other programs: each is drawn here by a script of Gmsh, saved in many formats, and read again.
 #include "drawing_files.h"
 
+#include <hpvi/reader/gmsh/hexahedral_file.h>
+#include <hpvi/scene/hexahedral_mesh.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -167,5 +170,51 @@ TEST(Drawings, HaveNamesByNumbers)
     EXPECT_TRUE(says(failure_of<InputError>([&]() { names_of(file, request); }),
                      "has no curve 99, which Boundary rim/Curves names; it has 1, 2, 3"))
         << file;
+}
+
+/** Solids become hexahedra: tetrahedra, prisms and both, of drawings and of meshes; all of the volume, and boundaries by name or number. */
+TEST(Drawings, OfSolidsBecomeHexahedra)
+{
+  const Folder folder;
+  const std::string base = kernel + "Rectangle(1) = {0, 0, 0, 2, 1};\n",
+                    block = kernel +
+                            "Box(1) = {0, 0, 0, 2, 1, 1}; Box(2) = {0, 0, 1, 1, 1, 1};\n"
+                            "BooleanUnion(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };\n";
+  struct Row
+  {
+    std::string file, script;
+    double volume;
+    unsigned int times; ///< as many cells as before; 0: of a mixture
+    std::size_t n_boundaries;
+  };
+  const std::string groups = "Physical Volume(\"body\") = {3}; Physical Surface(\"foot\") = {1};\n";
+  for (const Row &row : std::vector<Row>{
+           {"solid.geo", block, 3, 4, 8},
+           {"box.step", kernel + "Box(1) = {0, 0, 0, 2, 1, 1};\nSave \"box.step\";\n", 2, 4, 6},
+           {"prisms.geo", base + "Extrude {0, 0, 1.5} { Surface{1}; Layers{3}; Recombine; }\n", 3,
+            3, 6},
+           {"text.msh", block + groups + "Mesh 3; Save \"text.msh\";\n", 3, 4, 2},
+           {"bytes.msh", block + groups + "Mesh 3; Mesh.Binary = 1; Save \"bytes.msh\";\n", 3, 4,
+            2}})
+  {
+    if (row.file.find(".geo") != std::string::npos)
+      folder.write(row.file, row.script);
+    else if (!row.script.empty())
+      read_drawing(folder.write("script.geo", row.script), 3);
+    HexahedralMesh mesh;
+    ASSERT_EQ(failure_of<InputError>([&]() { mesh = read_hexahedral_file(folder(row.file)); }), "")
+        << row.file;
+    double volume = 0;
+    for (const auto &face : mesh.faces) // the divergence theorem for x/3
+      volume += area_of(mesh.corners_of(face)) *
+                (Tensor<1, 3>(mesh.corners_of(face)[0]) * normal_of(mesh.corners_of(face))) / 3;
+    EXPECT_NEAR(volume, row.volume, 1e-12) << row.file;
+    EXPECT_TRUE(mentions(mesh.remarks, " " + std::to_string(row.times) + " times as many"))
+        << row.file;
+    EXPECT_EQ(mesh.boundaries.size(), row.n_boundaries) << row.file;
+  }
+  EXPECT_TRUE(
+      says(failure_of<InputError>([&]() { read_hexahedral_file(folder.write("flat.geo", base)); }),
+           "has no solid; draw one, or set Dimension = 2"));
 }
 } // namespace

@@ -54,26 +54,27 @@ void check_curves(const DrawingRequest &request, const std::set<std::int64_t> &k
 }
 } // namespace
 
-void number_groups(GmshFile &file, const DrawingRequest &request, const MeshComplaint &complain)
+void number_groups(GmshFile &file, const unsigned int dim, const DrawingRequest &request,
+                   const MeshComplaint &complain)
 {
   std::int64_t group = first_named;
   for (const std::string &name : names_of_curves(request))
     file.names[{1, group++}] = name;
-  const bool has_no_surfaces = is_without_groups(file, 2);
+  const bool has_no_surfaces = is_without_groups(file, dim);
   if (request.curves.empty())
-    file.is_numbered = is_without_groups(file, 1);
+    file.is_numbered = is_without_groups(file, dim - 1);
   else
     file.is_numbered =
         std::none_of(file.elements.begin(), file.elements.end(),
-                     [](const GmshFile::Element &element)
-                     { return element.group != 0 && element_kind(element.type).dim == 1; });
+                     [dim](const GmshFile::Element &element)
+                     { return element.group != 0 && element_kind(element.type).dim == dim - 1; });
   std::set<std::int64_t> curves;
   for (GmshFile::Element &element : file.elements)
   {
-    const unsigned int dim = element_kind(element.type).dim;
-    if (dim == 2 && has_no_surfaces)
+    const unsigned int own = element_kind(element.type).dim;
+    if (own == dim && has_no_surfaces)
       element.group = std::max<std::int64_t>(element.entity, 1);
-    if (dim != 1 || element.entity == 0)
+    if (own != dim - 1 || element.entity == 0)
       continue;
     curves.insert(element.entity);
     if (file.is_numbered)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/cell_faces.h>
+#include <hpvi/reader/gmsh/curve_numbers.h>
 #include <hpvi/reader/gmsh/gmsh_file.h>
+#include <hpvi/reader/gmsh/hexahedra.h>
 #include <hpvi/reader/gmsh/hexahedral_file.h>
 #include <hpvi/reader/gmsh/mesh_groups.h>
 
@@ -45,8 +47,8 @@ void check_hexahedra(const GmshFile &file, const MeshComplaint &complain)
           "), the first in this line; " +
           (is_of_higher_order
                ? "a body in space has hexahedra of first order: mesh with -order 1"
-               : "a body in space has hexahedra alone: make transfinite volumes, or extrude "
-                 "a recombined surface with Recombine and Layers"));
+               : "a body in space has hexahedra, tetrahedra and prisms: make transfinite volumes, "
+                 "or extrude a surface with Recombine and Layers"));
 }
 
 class HexahedraMaker
@@ -295,11 +297,17 @@ private:
 };
 } // namespace
 
-HexahedralMesh read_hexahedral_file(const std::string &path)
+HexahedralMesh read_hexahedral_file(const std::string &path, const DrawingRequest &request)
 {
-  const GmshFile file = read_gmsh_file(path);
+  GmshFile file = read_drawing(path, 3, request);
   const MeshComplaint complain(path);
+  number_groups(file, 3, request, complain);
+  make_hexahedra(file);
   check_hexahedra(file, complain);
-  return HexahedraMaker(file, complain).make();
+  HexahedralMesh mesh = HexahedraMaker(file, complain).make();
+  mesh.origin = file.origin;
+  mesh.is_numbered = file.is_numbered;
+  mesh.remarks = file.remarks;
+  return mesh;
 }
 } // namespace hpvi

@@ -318,7 +318,7 @@ CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string
 {
   GmshFile file = read_drawing(path, 2, request);
   const MeshComplaint complain(path);
-  number_groups(file, request, complain);
+  number_groups(file, 2, request, complain);
   check_elements(file, complain);
   make_quadrilaterals(file, complain);
   return MeshMaker(file, surfaces, request, complain).make();

@@ -122,19 +122,20 @@ ShapeKind<3> hexahedra_from_file()
   return {
       Shape::file,
       "file",
-      "file: hexahedra of a mesh file of Gmsh, given by File; its boundaries are the physical "
-      "surfaces.",
-      {{"Geometry", "File", "", std::make_shared<Patterns::Anything>(), "a file name or nothing",
-        "Mesh file of Gmsh, format 4.1 or 2.2, ASCII, with hexahedra of first order and plane "
-        "faces, physical surfaces and physical volumes; a path relative to that of the scene."}},
+      "file: what a drawing or a mesh file has, given by File; its boundaries are the physical "
+      "surfaces, or the surfaces by their numbers.",
+      drawing_entries(3),
       "File",
       [](const Parameters &parameters, Geometry<3> &geometry)
       {
         const std::string file = parameters.text("Geometry", "File");
         if (file.empty())
-          parameters.reject("Geometry", "File", "names no mesh; give a file of Gmsh, as body.msh");
+          parameters.reject("Geometry", "File",
+                            "names no mesh; give a drawing or a mesh, as body.step or body.msh");
         geometry.mesh = std::make_shared<const HexahedralMesh>(
-            read_hexahedral_file(beside(parameters.file_name(), file)));
+            read_hexahedral_file(beside(parameters.file_name(), file),
+                                 drawing_request([&](const std::string &entry)
+                                                 { return parameters.text("Geometry", entry); })));
       },
       nullptr,
       [](const GeometryText &text)
@@ -142,7 +143,8 @@ ShapeKind<3> hexahedra_from_file()
         const std::string file = text("File");
         if (file.empty())
           return SideNames();
-        const std::vector<std::string> boundaries = read_hexahedral_file(file).boundaries;
+        const std::vector<std::string> boundaries =
+            read_hexahedral_file(file, drawing_request(text)).boundaries;
         require_names(boundaries, file, "surface");
         return SideNames{boundaries, {}, /*is_from_file=*/true};
       },

@@ -108,28 +108,11 @@ void take_curves(const std::string &name, const std::string &numbers, DrawingReq
       request.curves[std::stoi(word)] = name;
 }
 
-/** What a section says of a drawing, by the texts of its entries. */
-DrawingRequest request_of(const GeometryText &text)
-{
-  DrawingRequest request;
-  const auto number = [&](const std::string &entry, const double otherwise)
-  {
-    const std::string value = text(entry);
-    return value.empty() || value.find_first_not_of("0123456789.eE+-") != std::string::npos
-               ? otherwise
-               : std::strtod(value.c_str(), nullptr);
-  };
-  request.size = number("Mesh size", 0);
-  request.curvature = number("Mesh size from curvature", request.curvature);
-  request.unit = text("Length unit");
-  return request;
-}
-
 /** Those of the body whose boundaries begin with @p prefix. */
 DrawingRequest request_of(const Parameters &parameters, const std::string &prefix)
 {
   DrawingRequest request =
-      request_of([&](const std::string &entry) { return parameters.text("Geometry", entry); });
+      drawing_request([&](const std::string &entry) { return parameters.text("Geometry", entry); });
   const std::string start = "Boundary " + prefix;
   for (const std::string &section : parameters.sections_with("Curves"))
     if (section.compare(0, start.size(), start) == 0)
@@ -228,14 +211,31 @@ std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh)
   return result;
 }
 
-namespace
+DrawingRequest drawing_request(const GeometryText &text)
 {
-std::vector<Entry> drawing_entries()
+  DrawingRequest request;
+  const auto number = [&](const std::string &entry, const double otherwise)
+  {
+    const std::string value = text(entry);
+    return value.empty() || value.find_first_not_of("0123456789.eE+-") != std::string::npos
+               ? otherwise
+               : std::strtod(value.c_str(), nullptr);
+  };
+  request.size = number("Mesh size", 0);
+  request.curvature = number("Mesh size from curvature", request.curvature);
+  request.unit = text("Length unit");
+  return request;
+}
+
+std::vector<Entry> drawing_entries(const unsigned int dim)
 {
   return {{"Geometry", "File", "", std::make_shared<Patterns::Anything>(), "a file name or nothing",
-           "A drawing: STEP, IGES, BREP or a script .geo of Gmsh, which is run as such; or a mesh: "
-           ".msh, .unv, .bdf or .vtk, of triangles, quadrilaterals or both; a path relative to "
-           "that of the scene."},
+           std::string(
+               "A drawing: STEP, IGES, BREP or a script .geo of Gmsh, which is run as such; or a "
+               "mesh: .msh, .unv, .bdf or .vtk, of ") +
+               (dim == 2 ? "triangles, quadrilaterals or both"
+                         : "tetrahedra, prisms and hexahedra with plane faces") +
+               "; a path relative to that of the scene."},
           {"Geometry", "Length unit", "",
            std::make_shared<Patterns::Selection>("|mm|cm|m|um|km|inch|ft"),
            std::string(length_units) + ", or nothing",
@@ -245,20 +245,18 @@ std::vector<Entry> drawing_entries()
            "a positive number or nothing",
            "Size of the largest cells of a drawing [length]; empty: a quarter of the larger side "
            "of its box, or what a script says."},
-          {"Geometry", "Mesh size from curvature", "12", std::make_shared<Patterns::Double>(0, 1000),
-           "a number from 0 to 1000",
+          {"Geometry", "Mesh size from curvature", "12",
+           std::make_shared<Patterns::Double>(0, 1000), "a number from 0 to 1000",
            "How many cells of a drawing there are along curves at least, per full turn; 0: no "
            "matter how they turn."}};
 }
-} // namespace
-
 ShapeKind<2> mesh_from_file()
 {
   return {Shape::file,
           "file",
           "file: what a drawing or a mesh file has, given by File; its boundaries are the physical "
           "curves, or the curves by their numbers.",
-          drawing_entries(),
+          drawing_entries(2),
           "File",
           read_file,
           nullptr,
@@ -267,7 +265,7 @@ ShapeKind<2> mesh_from_file()
             const std::string file = text("File");
             if (file.empty())
               return SideNames();
-            DrawingRequest request = request_of(text);
+            DrawingRequest request = drawing_request(text);
             for (const std::string &line : Utilities::split_string_list(text("Curves of all"), ';'))
               if (const std::size_t equals = line.find('='); equals != std::string::npos)
                 take_curves(line.substr(0, equals), line.substr(equals + 1), request);

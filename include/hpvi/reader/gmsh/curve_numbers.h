@@ -8,10 +8,11 @@
 namespace hpvi
 {
 /**
- * Put what is in no physical group into groups by number: of a file in which no cell has one, surfaces; of one in which no line has
- * one, curves. Curves that @p request names get groups of these names. Throws InputError where the drawing lacks one.
+ * Put what is in no physical group into groups by number: of a file in which no cell of @p dim dimensions has one, surfaces or
+ * volumes; of one in which nothing on their boundary has one, curves or surfaces. Curves that @p request names get groups of these names. Throws InputError where the drawing lacks one.
  */
-void number_groups(GmshFile &file, const DrawingRequest &request, const MeshComplaint &complain);
+void number_groups(GmshFile &file, unsigned int dim, const DrawingRequest &request,
+                   const MeshComplaint &complain);
 
 /**
  * Groups of edges on the boundary in a file without lines: from one corner of more than 30 degrees to the next, from 1 on, by edge of

@@ -2,6 +2,7 @@
 #ifndef hpvi_hexahedral_file_h
 #define hpvi_hexahedral_file_h
 
+#include <hpvi/reader/gmsh/drawing_file.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <string>
@@ -9,16 +10,16 @@
 namespace hpvi
 {
 /**
- * The body in space in the mesh file @p path of Gmsh: hexahedra of first order in format 4.1, 4.0 or 2.2, ASCII. Boundaries are
+ * The body in space in the drawing or mesh file @p path: hexahedra of first order, or what make_hexahedra() makes of other cells. Boundaries are
  * its physical surfaces and #surfaces of the mesh its physical volumes, in the order of their tags; one without a name is
- * called by its tag. Corners stand in an order in which the edges of all cells run the same way.
+ * called by its tag, and without any by their numbers. Corners stand in an order in which the edges of all cells run the same way.
  *
- * Throws InputError of one line (file, line where there is one, problem, remedy) for all else: a file that is missing, binary or
+ * Throws InputError of one line (file, line where there is one, problem, remedy) for all else: a file that is missing or
  * damaged; other elements; cells that are in no group, folded, with faces that are not plane to 1e-8 of their size, or not one
  * part connected through faces; nodes twice at one place or hanging; faces in two groups, in one and of no cell, or of more
  * than two cells; a group that lies on the boundary and inside; names that a scene cannot write.
  */
-HexahedralMesh read_hexahedral_file(const std::string &path);
+HexahedralMesh read_hexahedral_file(const std::string &path, const DrawingRequest &request = {});
 } // namespace hpvi
 
 #endif

@@ -2,12 +2,17 @@
 #ifndef hpvi_mesh_from_file_h
 #define hpvi_mesh_from_file_h
 
+#include <hpvi/reader/gmsh/drawing_file.h>
 #include <hpvi/reader/shapes/shape.h>
 
 namespace hpvi
 {
 /** The mesh of a drawing or a mesh file (read_mesh_file()), for the list of shapes(). */
 ShapeKind<2> mesh_from_file();
+
+/** What a section says of a drawing, by the texts of its entries, and the entries. */
+DrawingRequest drawing_request(const GeometryText &text);
+std::vector<Entry> drawing_entries(unsigned int dim);
 
 /** Where a scene file @p scene finds the file that it calls @p name: beside itself, unless that is a whole path. */
 std::string beside(const std::string &scene, const std::string &name);
