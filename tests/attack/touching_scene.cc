@@ -207,8 +207,7 @@ std::string TouchingScene::text()
     if (dice.happens(0.5))
       out << "On = " << side(b, static_cast<unsigned int>(dice.number(0, 4)));
     else
-      out << "At = "
-          << place((box.lower[0] + box.upper[0]) / 2, (box.lower[1] + box.upper[1]) / 2)
+      out << "At = " << place((box.lower[0] + box.upper[0]) / 2, (box.lower[1] + box.upper[1]) / 2)
           << "\n  set Size = "
           << 0.2 * std::min(box.upper[0] - box.lower[0], box.upper[1] - box.lower[1]);
     out << "\nend\n";

@@ -164,8 +164,7 @@ TEST(LongCellsThatAreDistorted, HaveABoundAboveTheError)
   double least = 0;
   const Scene<2> finer = problem(trapezoid, "40, 1", "6", "2", {{"Error/Bound", "false"}});
   AdaptiveSolver<2>(finer).run([&](const StepReport<2> &step) { least = step.energies.energy; });
-  for (const Step &step :
-       steps_of(problem(trapezoid, "2, 1", "3", "2", {{"Error/Bound", "true"}})))
+  for (const Step &step : steps_of(problem(trapezoid, "2, 1", "3", "2", {{"Error/Bound", "true"}})))
   {
     const double error = std::sqrt(2 * (step.energy - least));
     EXPECT_GE(step.bound, error);
