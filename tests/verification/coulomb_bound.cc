@@ -285,8 +285,9 @@ TEST(CoulombBound, HoldsAgainstFinerRuns)
             write_solution(out, step.field, step.energies.energy);
           });
     }
-    const Scene<2> scene = shipped_scene(
-        name, {{"Adaptivity/Maximum steps", text(n_steps)}, {"Error/Reference solution", file}});
+    const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", text(n_steps)},
+                                                {"Error/Bound", "true"},
+                                                {"Error/Reference solution", file}});
     AdaptiveSolver<2>(scene).run(
         [&, kind = kind, most = most](const StepReport<2> &step)
         {
