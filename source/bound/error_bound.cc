@@ -251,8 +251,7 @@ std::optional<JointTractions> joints_of(const Solution<2> &solution,
                                         const AdmissiblePressure<2> &pressure)
 {
   std::optional<JointTractions> result;
-  if (!unmatched_joint(solution.contact_space).empty() ||
-      has_oblique_contact(solution.contact_space))
+  if (has_given_tractions(solution.contact_space))
     result.emplace(solution, friction, pressure);
   return result;
 }

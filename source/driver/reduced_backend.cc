@@ -327,6 +327,7 @@ bool ReducedBackend<dim>::needs_factor_again() const
   const auto &faces = discretisation->spaces->contact_space.faces();
   return scene.error_bound && discretisation->spaces->no_error_bound(scene).empty() &&
          (scene.is_nearly_incompressible() ||
+          has_given_tractions(discretisation->spaces->contact_space) ||
           std::any_of(faces.begin(), faces.end(),
                       [](const auto &face) { return varies(face.friction); }));
 }

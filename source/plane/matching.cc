@@ -74,8 +74,10 @@ std::string unbounded_joint(const ContactSpace<dim> &contact_space)
 }
 
 template <int dim>
-bool has_oblique_contact(const ContactSpace<dim> &contact_space)
+bool has_given_tractions(const ContactSpace<dim> &contact_space)
 {
+  if (!unmatched_joint(contact_space).empty())
+    return true;
   for (const ContactFace<dim> &face : contact_space.faces())
     for (const double s : {0., 0.5, 1.})
       if (const Tensor<1, dim> normal =
@@ -222,7 +224,7 @@ template struct FaceDofs<2>;
 template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
 template std::string unmatched_joint(const ContactSpace<2> &);
 template std::string unbounded_joint(const ContactSpace<2> &);
-template bool has_oblique_contact(const ContactSpace<2> &);
+template bool has_given_tractions(const ContactSpace<2> &);
 template std::string no_error_bound(const Scene<2> &);
 template std::string no_error_bound(const Scene<3> &);
 template void match_nested(const Scene<2> &, const ShapeTables<2> &, Triangulation<2> &, Degrees &);

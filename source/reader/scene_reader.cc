@@ -315,7 +315,7 @@ void choose_bound(const Parameters &parameters, Scene<2> &scene)
 {
   if (parameters.boolean("Error", "Bound on distorted cells"))
     scene.remarks.push_back("Error/Bound on distorted cells has no effect any more: cells of any "
-                            "shape have a bound, where Error/Bound names nothing in the last step");
+                            "shape have a bound, by default in the last step");
   const bool names_indicator = parameters.is_named("Adaptivity", "Indicator");
   const bool is_of_file = scene.geometry.has_mesh() && scene.geometry.bodies.empty(),
              is_cheap =

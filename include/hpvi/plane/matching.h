@@ -52,9 +52,9 @@ std::string unmatched_joint(const ContactSpace<dim> &contact_space);
 template <int dim>
 std::string unbounded_joint(const ContactSpace<dim> &contact_space);
 
-/** Is there contact along another direction than the normal? Then, and where meshes do not match, JointTractions give what contact exerts. */
+/** Do meshes not match, or is contact along another direction than the normal? Then JointTractions give what contact exerts. */
 template <int dim>
-bool has_oblique_contact(const ContactSpace<dim> &contact_space);
+bool has_given_tractions(const ContactSpace<dim> &contact_space);
 
 /**
  * Where a bound is asked for, bisects cells of a mesh along joints until bodies match there, where each edge of one is a half, a
