@@ -171,7 +171,7 @@ def scene_examples():
 
 
 def check_example(program, key, value):
-    if key in (("Error", "Reference solution"), ("Body NAME", "Surfaces")):
+    if key in (("Error", "Reference solution"), ("Body NAME", "Surfaces"), ("Material NAME", "Surfaces")):
         return  # names a file of another run, surfaces of a mesh
     wood = [entry for entry in EXAMPLES if entry[0] == "Material" and entry[1] in ORTHOTROPIC]
     beside = {}
@@ -212,7 +212,7 @@ def entries_page(program):
         if key in seen:
             continue  # of another side
         seen.add(key)
-        of_all = (key[0].replace("Material NAME", "Material"), name)  # a named material inherits it
+        of_all = key if key in EXAMPLES else (key[0].replace("Material NAME", "Material"), name)  # a named material inherits it
         if key[0] == "Body NAME" and key not in examples and key not in EXAMPLES:
             of_all = ("Geometry", name)  # which says the same of one body
         if key in examples or of_all in examples:
