@@ -26,7 +26,7 @@ GROUPS = {
     "Material": ("several materials", "orthotropic", "nearly incompressible", "weight", "thickness", "initial strain", "heat"),
     "Supports": ("prescribed displacement", "plane of symmetry", "elastic foundation", "rigid plate", "contact and friction alone"),
     "Loads": ("traction", "pressure", "force per volume", "parts of sides", "load history"),
-    "Results": ("guaranteed bound", "closed form", "probes")}
+    "Results": ("guaranteed bound", "bound by the coupling", "closed form", "probes")}
 
 
 def assignments(text):
@@ -119,7 +119,9 @@ class Scene:
 
     def results(self, has_bound):
         exact = [value for section, name, value in self.entries if (section, name) == ("Exact solution", "Solution") and value != "none"]
-        said = {"guaranteed bound": has_bound, "closed form": exact,
+        follows_pressure = any(value not in ("", "0") for value in self.values("Boundary", "Friction coefficient") +
+                               self.values("Contact", "Friction coefficient"))
+        said = {"guaranteed bound": has_bound and not follows_pressure, "bound by the coupling": has_bound and follows_pressure, "closed form": exact,
                 "probes": any(section.startswith("Probe ") for section, _, _ in self.entries)}
         return {name for name, is_said in said.items() if is_said}
 
