@@ -81,7 +81,7 @@ Vector<double> AdmissiblePressure<dim>::missing_forces(const Solution<dim> &solu
         dofs.add_force(c * n + node, force * normal[c], result);
     };
     // z_n at the nodes has their weights, as a multiplier it is integrated.
-    const EdgePolynomial pi = value(k), z = discrete_pressure(face, solution);
+    const EdgePolynomial pi = value(k), z = discrete_traction(face, solution, /*is_pressure=*/true);
     const QGaussLobatto<1> &nodes = solution.tables.gauss_lobatto(n);
     for (unsigned int j = 0, i = 0; face.at_nodes && j < n && i < face.pressures.size(); ++j)
       if (face.normal_points[i] == nodes.point(j)[0])

@@ -85,16 +85,6 @@ bool is_joint(const ContactFace<2> &face)
   return !face.segments.empty() &&
          (face.condition->is_tied() || face.condition->contact == Contact::bilateral);
 }
-
-/** The friction of the multiplier as a polynomial; zero where there is none. */
-EdgePolynomial discrete_friction(const ContactFace<2> &face, const Solution<2> &solution)
-{
-  const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
-  std::vector<double> values;
-  for (const Point<1> &point : gauss.get_points())
-    values.push_back(solution.contact_space.value(face, solution.z, point[0]));
-  return EdgePolynomial::through(values, gauss);
-}
 } // namespace
 
 JointTractions::JointTractions(const Solution<2> &solution, const AdmissibleFriction<2> &friction,
@@ -214,8 +204,8 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k) const
       }
     }
   }
-  result[0][0] = discrete_pressure(face, solution).coefficients()[0];
-  result[1][0] = discrete_friction(face, solution).coefficients()[0];
+  result[0][0] = discrete_traction(face, solution, /*is_pressure=*/true).coefficients()[0];
+  result[1][0] = discrete_traction(face, solution, /*is_pressure=*/false).coefficients()[0];
   return {{EdgePolynomial(result[0]), EdgePolynomial(result[1])}};
 }
 
@@ -240,9 +230,9 @@ void JointTractions::balance_moments()
       if (is_open)
         continue;
       const double run = along(end, first);
-      missing +=
-          run * faces[end].length *
-          (first_moment(discrete_pressure(faces[end], solution)) - first_moment(parts[end][0]));
+      missing += run * faces[end].length *
+                 (first_moment(discrete_traction(faces[end], solution, /*is_pressure=*/true)) -
+                  first_moment(parts[end][0]));
       lengths += run * run * faces[end].length;
     }
     for (unsigned int k = first; !is_open && k < end; ++k)

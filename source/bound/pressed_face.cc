@@ -86,12 +86,15 @@ void PressedFace::take_own_parts()
     t[end] = own_part(*this, end);
 }
 
-EdgePolynomial discrete_pressure(const ContactFace<2> &face, const Solution<2> &solution)
+EdgePolynomial discrete_traction(const ContactFace<2> &face, const Solution<2> &solution,
+                                 const bool is_pressure)
 {
+  const ContactSpace<2> &space = solution.contact_space;
   const QGauss<1> &gauss = solution.tables.gauss(face.degree + 1);
   std::vector<double> values;
   for (const Point<1> &point : gauss.get_points())
-    values.push_back(solution.contact_space.pressure(face, solution.z, point[0]));
+    values.push_back(is_pressure ? space.pressure(face, solution.z, point[0])
+                                 : space.value(face, solution.z, point[0]));
   return EdgePolynomial::through(values, gauss);
 }
 
@@ -110,7 +113,7 @@ PressedFace pressed_face(const ContactFace<2> &face, const Solution<2> &solution
   result.origin = face.point(0.) * frame.tangent;
   result.step = face.point(1.) * frame.tangent - result.origin;
   result.boundary = face.condition;
-  const EdgePolynomial z = discrete_pressure(face, solution),
+  const EdgePolynomial z = discrete_traction(face, solution, /*is_pressure=*/true),
                        u_0 = gap_at_nodes(face, solution.tables, legendre),
                        u_n = edge_trace(face, frame.normal, solution.displacement_space,
                                         solution.tables, solution.u);

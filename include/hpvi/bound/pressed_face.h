@@ -39,8 +39,9 @@ struct PressedFace
 PressedFace pressed_face(const ContactFace<2> &face, const Solution<2> &solution,
                          const LegendreTables &legendre);
 
-/** z_n as a polynomial of degree p. */
-EdgePolynomial discrete_pressure(const ContactFace<2> &face, const Solution<2> &solution);
+/** z_N along the normal, or z of friction, as a polynomial of degree p; zero where there is none. */
+EdgePolynomial discrete_traction(const ContactFace<2> &face, const Solution<2> &solution,
+                                 bool is_pressure);
 } // namespace hpvi
 
 #endif
