@@ -4,6 +4,7 @@
 
 #include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/corner_stress.h>
+#include <hpvi/bound/cut_element.h>
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/bound/row_element.h>
 #include <hpvi/plane/matching.h>
@@ -209,6 +210,53 @@ TEST(RowElement, FindsAStressOfItsSpace)
 }
 
 /** Any fluxes: what fields have on the faces is what they are counted by, and their divergence a constant. */
+TEST(CutElement, AsksForTheBalanceOfTheWholeCell)
+{
+  constexpr unsigned int k = 3;
+  const RowTable table(k, k + 6, 0);
+  const Material material;
+  const auto shape_of = [&](const CellMap<2>::Vertices &corners)
+  {
+    const CellMap<2> map(corners);
+    const Tensor<1, 2> a = corners[3] - corners[0], b = corners[2] - corners[1];
+    return RowShape{0, &material, map, std::sqrt((a[0] * b[1] - a[1] * b[0]) / 8), {}, 1.};
+  };
+  const auto length = [](const RowShape &shape, const unsigned int face)
+  {
+    return 0.5 * shape.map.point(point_on_face<2>(face, Point<1>(0.)))
+                     .distance(shape.map.point(point_on_face<2>(face, Point<1>(1.))));
+  };
+  RowShape whole = shape_of({{{0, 0}, {2, 0.3}, {-0.2, 1}, {2.3, 1.8}}});
+  for (unsigned int face = 0; face < 4; ++face)
+    whole.densities[face] = length(whole, face);
+  const std::array<double, 4> cuts{{0, 0.3, 1, 0}};
+  std::vector<std::unique_ptr<const RowElement>> elements;
+  std::vector<CutElement::Part> parts;
+  for (unsigned int y = 0; y < 2; ++y)
+    for (unsigned int x = 0; x < 2; ++x)
+    {
+      const BoundingBox<2> box(
+          std::pair<Point<2>, Point<2>>({cuts[x], cuts[y]}, {cuts[x + 1], cuts[y + 1]}));
+      CellMap<2>::Vertices corners;
+      for (unsigned int v = 0; v < 4; ++v)
+        corners[v] = whole.map.point(box.unit_to_real(GeometryInfo<2>::unit_cell_vertex(v)));
+      RowShape shape = shape_of(corners);
+      for (unsigned int face = 0; face < 4; ++face)
+        shape.densities[face] = (face % 2 ? (face < 2 ? x : y) == 1 : (face < 2 ? x : y) == 0)
+                                    ? whole.densities[face] * box.side_length(1 - face / 2)
+                                    : whole.h / 2;
+      elements.push_back(std::make_unique<const RowElement>(table, shape));
+      parts.push_back({box, elements.back().get(), shape.h, shape.map.point({0.5, 0.5})});
+    }
+  const RowElement one(table, whole);
+  const CutElement cut(parts, 2, whole.h, whole.map.point({0.5, 0.5}));
+  const TractionEnergy own = one.energy(), joined = cut.energy();
+  for (unsigned int z = 0; z < 3; ++z)
+    for (unsigned int i = 0; i < own.n_edges(); ++i)
+      EXPECT_NEAR(joined.N.entries[z * joined.N.stride + i], own.N.entries[z * own.N.stride + i],
+                  1e-12);
+}
+
 TEST(RowTable, HasFluxesAndDivergences)
 {
   const RowTable table(4, 9, 0);
