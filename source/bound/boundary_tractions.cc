@@ -180,12 +180,10 @@ void BoundaryTractions::add_contact(const unsigned int index)
 void BoundaryTractions::add_joint(const unsigned int index)
 {
   const StressEdge &edge = patches.edges()[index];
-  JointPiece whole = joints->edges()[edge.contact_face].pieces[0];
-  whole.begin = whole.at_begin = 0.;
-  whole.end = whole.at_end = 1.;
-  for (const auto &[s, weight] : joints->points(whole, edge.degree + 1))
+  const JointPiece &piece = joints->edges()[edge.contact_face].pieces[0];
+  for (const auto &[s, weight] : joints->points(piece, 0., 1., edge.degree + 1))
   {
-    const Tensor<1, 2> T = -outward(edge) * stretch(edge, s) * joints->value(edge.contact_face, s);
+    const Tensor<1, 2> T = -outward(edge) / edge.length * joints->density(piece, s);
     add_load(index, s, weight, {{T, T}});
   }
 }
@@ -204,7 +202,8 @@ Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) 
   if (edge.contact_face == numbers::invalid_unsigned_int)
     return result;
   if (joints)
-    return result - outward(edge) * stretch(edge, s) * joints->value(edge.contact_face, s);
+    return result - outward(edge) / edge.length *
+                        joints->density(joints->edges()[edge.contact_face].pieces[0], s);
   const ContactFace<2> &face = solution.contact_space.faces()[edge.contact_face];
   const auto &[friction, pressure] = contact_parts[edge.contact_face];
   const auto at = [s](const std::vector<double> &part)

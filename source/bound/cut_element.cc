@@ -55,11 +55,12 @@ CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, 
     double square = 0;
     for (unsigned int i = 0; i < m; ++i)
       square += N[z * m + i] * N[z * m + i];
+    norms[z] = std::sqrt(square);
     for (unsigned int i = 0; i < m; ++i)
-      N[z * m + i] /= std::sqrt(square);
+      N[z * m + i] /= norms[z];
     for (FullMatrix<double> &condition : conditions)
       for (unsigned int c = 0; c < 3; ++c)
-        condition(z, c) /= std::sqrt(square);
+        condition(z, c) /= norms[z];
   }
 }
 
@@ -169,13 +170,25 @@ std::vector<double> CutElement::gradient(const Data &data) const
   return result;
 }
 
+std::array<double, 3> CutElement::of_cell(const unsigned int box,
+                                          const std::array<double, 3> &moments) const
+{
+  std::array<double, 3> result{};
+  for (unsigned int z = 0; z < 3; ++z)
+    for (unsigned int c = 0; c < 3; ++c)
+      result[z] += conditions[box](z, c) * moments[c];
+  return result;
+}
+
 std::array<double, 3> CutElement::defect(const Data &data) const
 {
   std::array<double, 3> result{};
   for (unsigned int box = 0; box < parts.size(); ++box)
+  {
+    const std::array<double, 3> own = of_cell(box, data.defects[box]);
     for (unsigned int z = 0; z < 3; ++z)
-      for (unsigned int c = 0; c < 3; ++c)
-        result[z] += conditions[box](z, c) * data.defects[box][c];
+      result[z] += own[z];
+  }
   return result;
 }
 

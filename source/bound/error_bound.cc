@@ -472,11 +472,18 @@ try
   result.tractions = edge_tractions(stress);
   if (made->of_pressure)
   {
-    if (!coulomb)
-      coulomb = std::make_unique<CoulombBounds>();
-    coulomb->set(result, solution, discretisation, made->friction, made->pressure,
-                 *contact.correction, stress_and_oscillation(stress, data),
-                 distance_from_admissible(contact.in_norms, data));
+    result.kind = BoundKind::estimate;
+    if (joints)
+      result.why = "the coupling of friction and pressure is not known where contact is along a "
+                   "curve or a direction, or meshes of bodies do not match";
+    else
+    {
+      if (!coulomb)
+        coulomb = std::make_unique<CoulombBounds>();
+      coulomb->set(result, solution, discretisation, made->friction, made->pressure,
+                   *contact.correction, stress_and_oscillation(stress, data),
+                   distance_from_admissible(contact.in_norms, data));
+    }
     result.radius = result.total;
     set_no_energy(result);
   }

@@ -100,20 +100,15 @@ void JointLift::choose_movers()
 
 JointLift::Mover JointLift::mover(const JointEdge &edge) const
 {
-  const ContactFrame<2> frame = solution.contact_space.faces()[edge.pieces[0].face].frame(0.5);
   const auto face = edge.cell->face(edge.face_no);
-  Mover result{&edge,
-               edge.is_slave ? 1. : -1.,
-               frame.normal,
-               frame.tangent,
-               {{face->vertex_index(0), face->vertex_index(1)}},
-               {},
-               {}};
+  Mover result{
+      &edge, edge.is_slave ? 1. : -1., {{face->vertex_index(0), face->vertex_index(1)}}, {}, {}};
   const auto add_void = [&](const double begin, const double end)
   {
     if (end - begin > 1e-9)
       result.pieces.push_back(
-          Piece({begin, end, edge.pieces[0].face, 0., 1., edge.cell, edge.face_no, 0., 1., false},
+          Piece({begin, end, edge.pieces[0].face, 0., 1., edge.cell, edge.face_no, 0., 1.,
+                 /*has_other=*/false, edge.is_slave, nullptr},
                 /*is_joint=*/false));
   };
   double end = 0;
@@ -125,6 +120,24 @@ JointLift::Mover JointLift::mover(const JointEdge &edge) const
   }
   add_void(end, 1.);
   return result;
+}
+
+/** Normal and tangent of the slave's face at t of a piece. */
+std::array<Tensor<1, 2>, 2> JointLift::frame(const Piece &piece, const double t) const
+{
+  const double s = piece.place.begin + t * (piece.place.end - piece.place.begin);
+  const ContactFrame<2> frame =
+      solution.contact_space.faces()[piece.place.face].node_frame(piece.place.on_slave(s));
+  return {{frame.normal, frame.tangent}};
+}
+
+/** Of polynomials that have what is of a degree along straight edges, and follow curves. */
+unsigned int JointLift::points_along(const Piece &piece, const unsigned int degree) const
+{
+  const bool is_curved =
+      piece.is_joint &&
+      (piece.place.drawn || solution.contact_space.faces()[piece.place.face].map.is_curved());
+  return degree + 1 + (is_curved ? n_of_curve / 2 : 0);
 }
 
 JointLift::Piece JointLift::piece(const JointPiece &place, const JointEdge &edge,
@@ -146,28 +159,26 @@ JointLift::Piece JointLift::piece(const JointPiece &place, const JointEdge &edge
   if (place.has_other)
     degree =
         std::max(degree, solution.displacement_space.degrees()[place.other->active_cell_index()]);
-  const ContactFrame<2> frame = face.frame(0.5);
+  const unsigned int n = points_along(result, std::max(degree, face.degree));
+  const bool is_straight = n == std::max(degree, face.degree) + 1;
   const LegendreTables legendre;
-  const EdgePolynomial u_0 = law.is_unilateral() && law.gap
-                                 ? gap_at_nodes(face, solution.tables, legendre)
-                                 : EdgePolynomial::constant(0.);
-  const auto jump = [&](const double t)
+  const bool has_gap = law.is_unilateral() && law.gap;
+  const EdgePolynomial at_nodes = has_gap && is_straight
+                                      ? gap_at_nodes(face, solution.tables, legendre)
+                                      : EdgePolynomial::constant(0.);
+  const auto jump = [&](const double t, const unsigned int c)
   {
     const double s = place.begin + t * (place.end - place.begin);
     Tensor<1, 2> value = displacement_at(solution, edge.cell, edge.face_no, s);
     if (place.has_other)
       value -= displacement_at(solution, place.other, place.other_face, place.on_other(s));
-    return sign * value;
+    const double u_0 = c == 1 || !has_gap ? 0.
+                       : is_straight      ? at_nodes(place.on_slave(s))
+                                          : gap_on_face(face, place.on_slave(s));
+    return sign * (value * frame(result, t)[c]) - u_0;
   };
-  const unsigned int n = std::max(degree, face.degree) + 1;
-  result.jump[0] = polynomial(n, solution.tables,
-                              [&](const double t)
-                              {
-                                const double s = place.begin + t * (place.end - place.begin);
-                                return jump(t) * frame.normal - u_0(place.on_slave(s));
-                              });
-  result.jump[1] =
-      polynomial(n, solution.tables, [&](const double t) { return jump(t) * frame.tangent; });
+  for (unsigned int c = 0; c < 2; ++c)
+    result.jump[c] = polynomial(n, solution.tables, [&](const double t) { return jump(t, c); });
   return result;
 }
 
@@ -191,7 +202,7 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
       {
         const double value = piece.jump[c](end);
         if (piece.modes[c] == exact || (piece.modes[c] == below && value > 0.))
-          wishes[vertex].push_back({mover.sign * (c == 0 ? mover.normal : mover.tangent), -value});
+          wishes[vertex].push_back({mover.sign * frame(piece, end)[c], -value});
       }
     }
   for (const auto &[vertex, all] : wishes)
@@ -218,31 +229,34 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
   }
 }
 
-/** Of [d] at both ends of each piece: at vertices by d there, at cuts between pieces what these ask for. */
+/** d at both ends of each piece: at vertices it is known, at cuts between pieces it is what these ask for. */
 void JointLift::set_ends(Mover &mover) const
 {
-  const std::array<Tensor<1, 2>, 2> directions{{mover.normal, mover.tangent}};
   std::vector<Piece> &pieces = mover.pieces;
-  for (unsigned int c = 0; c < 2; ++c)
-    for (const unsigned int end : {0, 1})
-      (end == 0 ? pieces.front() : pieces.back()).at_ends[end][c] =
-          mover.sign * (at_vertices.at(mover.vertices[end]) * directions[c]);
+  pieces.front().at_ends[0] = at_vertices.at(mover.vertices[0]);
+  pieces.back().at_ends[1] = at_vertices.at(mover.vertices[1]);
   for (unsigned int k = 0; k + 1 < pieces.size(); ++k)
+  {
+    Tensor<1, 2> d;
     for (unsigned int c = 0; c < 2; ++c)
     {
       double value = 0;
       bool is_exact = false;
+      Tensor<1, 2> direction;
       for (const unsigned int side : {0, 1})
         if (const Piece &piece = pieces[k + side]; piece.is_joint && piece.modes[c] != any)
         {
           const double wanted = -piece.jump[c](1. - side);
           is_exact |= piece.modes[c] == exact;
           value = is_exact ? wanted : std::min(wanted, 0.);
+          direction = frame(piece, 1. - side)[c];
           if (is_exact)
             break;
         }
-      pieces[k].at_ends[1][c] = pieces[k + 1].at_ends[0][c] = value;
+      d += mover.sign * value * direction;
     }
+    pieces[k].at_ends[1] = pieces[k + 1].at_ends[0] = d;
+  }
 }
 
 void JointLift::set_flaw(const Piece &piece, const double by)
@@ -254,37 +268,54 @@ void JointLift::set_flaw(const Piece &piece, const double by)
            " of the largest displacement, and what holds the softer one there keeps it so";
 }
 
-/** [d] along each piece. */
+/** [d] along each piece, and d. */
 void JointLift::set_changes(Mover &mover)
 {
   for (Piece &piece : mover.pieces)
+  {
+    for (unsigned int c = 0; piece.is_joint && c < 2; ++c)
+      set_change(piece, mover.sign, c);
+    const std::size_t n = std::max({std::size_t(2), piece.change[0].coefficients().size(),
+                                    piece.change[1].coefficients().size()});
     for (unsigned int c = 0; c < 2; ++c)
-    {
-      const std::array<double, 2> ends{{piece.at_ends[0][c], piece.at_ends[1][c]}};
-      EdgePolynomial &change = piece.change[c];
-      change = polynomial(2, solution.tables,
-                          [&](const double t) { return ends[0] + t * (ends[1] - ends[0]); });
-      if (!piece.is_joint || piece.modes[c] == any)
-        continue;
-      const EdgePolynomial left = piece.jump[c] + change;
-      for (const unsigned int end : {0, 1})
-        if (const double by = piece.modes[c] == exact ? std::abs(left(end)) : left(end);
-            by > round_off * size)
-          set_flaw(piece, by);
-      if (piece.modes[c] == exact)
-      {
-        std::vector<double> minus = piece.jump[c].coefficients();
-        for (double &value : minus)
-          value = -value;
-        change = EdgePolynomial(minus);
-      }
-      else if (const double height =
-                   height_over(left, {{true, true}}, 1e-14 * size, solution.tables);
-               height > 0.)
-        change = change + polynomial(3, solution.tables,
-                                     [&](const double t)
-                                     { return -(1. + 1e-10) * height * t * (1. - t); });
-    }
+      piece.d[c] = polynomial(
+          points_along(piece, n - 1), solution.tables,
+          [&](const double t)
+          {
+            if (!piece.is_joint)
+              return piece.at_ends[0][c] + t * (piece.at_ends[1][c] - piece.at_ends[0][c]);
+            const auto [normal, tangent] = frame(piece, t);
+            return mover.sign * (piece.change[0](t) * normal[c] + piece.change[1](t) * tangent[c]);
+          });
+  }
+}
+
+void JointLift::set_change(Piece &piece, const double sign, const unsigned int c)
+{
+  const std::array<double, 2> ends{{sign * (piece.at_ends[0] * frame(piece, 0.)[c]),
+                                    sign * (piece.at_ends[1] * frame(piece, 1.)[c])}};
+  EdgePolynomial &change = piece.change[c];
+  change = polynomial(2, solution.tables,
+                      [&](const double t) { return ends[0] + t * (ends[1] - ends[0]); });
+  if (piece.modes[c] == any)
+    return;
+  const EdgePolynomial left = piece.jump[c] + change;
+  for (const unsigned int end : {0, 1})
+    if (const double by = piece.modes[c] == exact ? std::abs(left(end)) : left(end);
+        by > round_off * size)
+      set_flaw(piece, by);
+  if (piece.modes[c] == exact)
+  {
+    std::vector<double> minus = piece.jump[c].coefficients();
+    for (double &value : minus)
+      value = -value;
+    change = EdgePolynomial(minus);
+  }
+  else if (const double height = height_over(left, {{true, true}}, 1e-14 * size, solution.tables);
+           height > 0.)
+    change =
+        change + polynomial(3, solution.tables,
+                            [&](const double t) { return -(1. + 1e-10) * height * t * (1. - t); });
 }
 
 /** d at the nodes of an edge. */
@@ -304,9 +335,7 @@ void JointLift::set_nodes(Mover &mover, Vector<double> &u) const
       const double s = nodes.point(j)[0];
       const auto at = std::find_if(mover.pieces.begin(), mover.pieces.end() - 1,
                                    [s](const Piece &piece) { return s <= piece.place.end; });
-      const double t = (s - at->place.begin) / (at->place.end - at->place.begin);
-      values[j] =
-          mover.sign * (at->change[0](t) * mover.normal[c] + at->change[1](t) * mover.tangent[c]);
+      values[j] = at->d[c]((s - at->place.begin) / (at->place.end - at->place.begin));
       u[dofs[on_edge[c * (p + 1) + j]]] = values[j];
     }
     legendre.from_nodes(p).vmult(coefficients, values);
@@ -359,8 +388,7 @@ void JointLift::set_w()
 Tensor<1, 2> JointLift::rest(const Mover &mover, const Piece &piece, const double t) const
 {
   const double s = piece.place.begin + t * (piece.place.end - piece.place.begin);
-  return mover.sign * (piece.change[0](t) * mover.normal + piece.change[1](t) * mover.tangent) -
-         Tensor<1, 2>({mover.w[0](s), mover.w[1](s)});
+  return Tensor<1, 2>({piece.d[0](t) - mover.w[0](s), piece.d[1](t) - mover.w[1](s)});
 }
 
 /** What w leaves of d along an edge, in its cell. */
@@ -372,19 +400,17 @@ void JointLift::add_rest(const Mover &mover)
       {mover.w[0].derivative(), mover.w[1].derivative()}};
   for (const Piece &piece : mover.pieces)
   {
-    const std::array<EdgePolynomial, 2> slopes{
-        {piece.change[0].derivative(), piece.change[1].derivative()}};
+    const std::array<EdgePolynomial, 2> slopes{{piece.d[0].derivative(), piece.d[1].derivative()}};
     const double length = piece.place.end - piece.place.begin;
     const unsigned int n =
-        std::max({piece.change[0].coefficients().size(), piece.change[1].coefficients().size(),
+        std::max({piece.d[0].coefficients().size(), piece.d[1].coefficients().size(),
                   mover.w[0].coefficients().size()}) +
         4;
     for (unsigned int q = 0; q < n; ++q)
     {
       const double t = solution.tables.gauss(n).point(q)[0], s = piece.place.begin + t * length;
-      const Tensor<1, 2> slope =
-          mover.sign / length * (slopes[0](t) * mover.normal + slopes[1](t) * mover.tangent) -
-          Tensor<1, 2>({slopes_of_w[0](s), slopes_of_w[1](s)});
+      const Tensor<1, 2> slope(
+          {slopes[0](t) / length - slopes_of_w[0](s), slopes[1](t) / length - slopes_of_w[1](s)});
       points.push_back(
           {s, length * solution.tables.gauss(n).weight(q), rest(mover, piece, t), slope});
       largest = std::max(largest, points.back().value.norm());
@@ -406,7 +432,8 @@ void JointLift::add_rest(const Mover &mover)
 void JointLift::add_gaps(const Mover &mover, const Piece &piece)
 {
   const ContactFace<2> &face = solution.contact_space.faces()[piece.place.face];
-  const double length = std::abs(piece.place.at_end - piece.place.at_begin);
+  const JointPiece &place = piece.place;
+  const double length = place.end - place.begin;
   const EdgePolynomial u_t = piece.jump[1], left = piece.jump[1] + piece.change[1],
                        open = piece.jump[0] + piece.change[0];
   const unsigned int n = std::max(u_t.coefficients().size(), open.coefficients().size());
@@ -418,24 +445,19 @@ void JointLift::add_gaps(const Mover &mover, const Piece &piece)
         cuts.insert(zero);
   for (auto cut = cuts.begin(); std::next(cut) != cuts.end(); ++cut)
   {
-    JointPiece part = piece.place;
-    const double begin = *cut, width = *std::next(cut) - begin;
-    part.begin = begin;
-    part.end = begin + width;
-    part.at_begin = piece.place.at_begin + begin * (piece.place.at_end - piece.place.at_begin);
-    part.at_end = part.at_begin + width * (piece.place.at_end - piece.place.at_begin);
-    for (const auto &[t, weight] : tractions.points(part, n))
+    for (const auto &[own, weight] : tractions.points(place, place.begin + *cut * length,
+                                                      place.begin + *std::next(cut) * length, n))
     {
-      const double s = part.on_slave(t), ds = length * width * weight * face.frame(s).measure;
-      const Tensor<1, 2> tau = tractions.value(piece.place.face, s);
+      const double t = (own - place.begin) / length, s = place.on_slave(own),
+                   ds = weight * tractions.measure(place, own);
+      const Tensor<1, 2> tau = tractions.value(place.face, s);
       work -= mover.sign * ds * (tau * rest(mover, piece, t));
       if (piece.modes[0] == below)
-        gaps[piece.place.face] -= ds * tractions.pressure(piece.place.face, s) * open(t);
+        gaps[place.face] -= ds * tractions.pressure(place.face, s) * open(t);
       if (!has_friction)
         continue;
-      const double g = face.friction_bound(face.point(s)),
-                   U_t = piece.modes[1] == exact ? 0. : left(t);
-      gaps[piece.place.face] += ds * (g * std::abs(U_t) - (tau * mover.tangent) * U_t);
+      const double g = tractions.limit(place.face, s), U_t = piece.modes[1] == exact ? 0. : left(t);
+      gaps[place.face] += ds * (g * std::abs(U_t) - (tau * face.node_frame(s).tangent) * U_t);
       work += ds * g * (std::abs(U_t) - std::abs(u_t(t)));
     }
   }

@@ -7,6 +7,8 @@
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/pressed_face.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,42 @@ double stiffness(const Solution<2> &solution, const DoFHandler<2>::active_cell_i
   return solution.scene.material_of(cell).residual_weight();
 }
 
+namespace
+{
+/** By polynomials, which follow smooth curves to round-off. */
+std::shared_ptr<const FacingCoordinates> facing(const ContactSegment<2> &segment)
+{
+  if (!segment.drawn)
+    return nullptr;
+  const QGauss<1> gauss(n_of_curve);
+  const double along = segment.end - segment.begin, across = segment.at_end - segment.at_begin;
+  std::vector<double> on_master, on_slave;
+  for (const Point<1> &point : gauss.get_points())
+    on_master.push_back(segment.opposite(segment.begin + point[0] * along));
+  auto result = std::make_shared<FacingCoordinates>();
+  result->on_master = EdgePolynomial::through(on_master, gauss);
+  const EdgePolynomial slope = result->on_master.derivative();
+  for (const Point<1> &point : gauss.get_points())
+  {
+    // Of the master's piece from its lower end on.
+    const double at =
+        across > 0. ? segment.at_begin + point[0] * across : segment.at_end - point[0] * across;
+    double share = across > 0. ? point[0] : 1. - point[0];
+    for (unsigned int k = 0; k < 50; ++k) // Newton
+    {
+      const double step = (at - result->on_master(share)) / slope(share);
+      share += step;
+      if (std::abs(step) < 1e-15)
+        break;
+    }
+    on_slave.push_back(segment.begin + share * along);
+  }
+  result->on_slave = EdgePolynomial::through(on_slave, gauss);
+  result->speed = result->on_slave.derivative();
+  return result;
+}
+} // namespace
+
 std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
 {
   const std::vector<ContactFace<2>> &faces = contact_space.faces();
@@ -29,16 +67,18 @@ std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
     JointEdge &slave = slaves.emplace_back(JointEdge{faces[k].cell, faces[k].face_no, true, {}});
     for (const ContactSegment<2> &segment : faces[k].segments)
     {
+      const auto drawn = facing(segment);
       slave.pieces.push_back({segment.begin, segment.end, k, segment.begin, segment.end,
                               segment.cell, segment.face_no, segment.at_begin, segment.at_end,
-                              true});
+                              /*has_other=*/true, /*is_slave=*/true, drawn});
       JointEdge &master = masters
                               .try_emplace({segment.cell->active_cell_index(), segment.face_no},
                                            JointEdge{segment.cell, segment.face_no, false, {}})
                               .first->second;
-      JointPiece piece{
-          segment.at_begin, segment.at_end, k,           segment.begin, segment.end, faces[k].cell,
-          faces[k].face_no, segment.begin,  segment.end, true};
+      JointPiece piece{segment.at_begin,   segment.at_end,     k,
+                       segment.begin,      segment.end,        faces[k].cell,
+                       faces[k].face_no,   segment.begin,      segment.end,
+                       /*has_other=*/true, /*is_slave=*/false, drawn};
       if (piece.begin > piece.end)
       {
         std::swap(piece.begin, piece.end);
@@ -48,7 +88,8 @@ std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
       master.pieces.push_back(piece);
     }
     if (slave.pieces.empty())
-      slave.pieces.push_back({0., 1., k, 0., 1., faces[k].cell, faces[k].face_no, 0., 1., false});
+      slave.pieces.push_back({0., 1., k, 0., 1., faces[k].cell, faces[k].face_no, 0., 1.,
+                              /*has_other=*/false, /*is_slave=*/true, nullptr});
   }
   for (auto &[place, master] : masters)
   {
@@ -90,7 +131,7 @@ bool is_joint(const ContactFace<2> &face)
 JointTractions::JointTractions(const Solution<2> &solution, const AdmissibleFriction<2> &friction,
                                const AdmissiblePressure<2> &pressure)
     : solution(solution), friction(friction), all(joint_edges(solution.contact_space)),
-      parts(solution.contact_space.faces().size())
+      parts(solution.contact_space.faces().size()), motions(solution.scene.free_motions())
 {
   for (unsigned int k = 0; k < all.size(); ++k)
     by_cell[{all[k].cell->active_cell_index(), all[k].face_no}] = k;
@@ -105,6 +146,7 @@ JointTractions::JointTractions(const Solution<2> &solution, const AdmissibleFric
       parts[k][1] = {};
   }
   balance_moments();
+  balance_motions();
 }
 
 const std::vector<JointEdge> &JointTractions::edges() const
@@ -118,18 +160,55 @@ const JointEdge *JointTractions::edge(const unsigned int cell, const unsigned in
   return found == by_cell.end() ? nullptr : &all[found->second];
 }
 
-double JointTractions::pressure(const unsigned int face, const double s) const
+/** What the amounts of motions are along normal and tangent; dimensionless. */
+std::array<double, 2> JointTractions::share_of_motions(const unsigned int k, const double s) const
 {
-  return parts[face][0](s);
+  if (!added)
+    return {};
+  const ContactFace<2> &face = solution.contact_space.faces()[k];
+  const ContactFrame<2> frame = face.node_frame(s);
+  const Tensor<1, 2> jump = added->jump(frame.x, face.bodies);
+  return {{jump * frame.normal, jump * frame.tangent}};
 }
 
+double JointTractions::pressure(const unsigned int k, const double s) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[k];
+  const double own = parts[k][0](s), share = share_of_motions(k, s)[0];
+  return face.condition->is_unilateral() ? own * (1. + share)
+         : is_joint(face)                ? own + unit * share
+                                         : own;
+}
+
+double JointTractions::limit(const unsigned int k, const double s) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[k];
+  return face.friction.vanishes()
+             ? 0.
+             : face.condition->friction.limit(face.point(s), std::max(0., pressure(k, s)));
+}
+
+/** Friction keeps its bound as long as shares are below a half. */
 Tensor<1, 2> JointTractions::value(const unsigned int k, const double s) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[k];
-  const ContactFrame<2> frame = face.frame(s);
-  const double bound = face.friction.vanishes() ? 0. : face.friction_bound(frame.x);
-  return parts[k][0](s) * frame.normal +
-         (parts[k][1](s) + (bound == 0. ? 0. : bound * friction.value(k, s))) * frame.tangent;
+  const ContactFrame<2> frame = face.node_frame(s);
+  const double bound = limit(k, s), share = share_of_motions(k, s)[1],
+               lambda = bound == 0. ? 0. : friction.value(k, s),
+               along = parts[k][1](s) + (face.condition->is_tied() ? unit * share : 0.) +
+                       bound * (lambda + (1. - lambda * lambda) * share);
+  return pressure(k, s) * frame.normal + along * frame.tangent;
+}
+
+double JointTractions::measure(const JointPiece &piece, const double s) const
+{
+  return piece.speed(s) *
+         solution.contact_space.faces()[piece.face].frame(piece.on_slave(s)).measure;
+}
+
+Tensor<1, 2> JointTractions::density(const JointPiece &piece, const double s) const
+{
+  return measure(piece, s) * value(piece.face, piece.on_slave(s));
 }
 
 unsigned int JointTractions::degree(const unsigned int face) const
@@ -150,25 +229,23 @@ unsigned int JointTractions::degree(const JointEdge &edge) const
 }
 
 std::vector<std::pair<double, double>> JointTractions::points(const JointPiece &piece,
+                                                              const double begin, const double end,
                                                               const unsigned int more) const
 {
-  const FrictionRule &rule = solution.contact_space.faces()[piece.face].friction;
-  std::vector<double> cuts = {0., 1.}; // along the piece
-  for (const double cut : rule.cuts)
-    if (const double at = (cut - piece.at_begin) / (piece.at_end - piece.at_begin);
-        at > 0. && at < 1.)
+  const ContactFace<2> &face = solution.contact_space.faces()[piece.face];
+  std::vector<double> cuts = {begin, end};
+  for (const double cut : face.friction.cuts)
+    if (const double at = piece.from_slave(cut); at > begin && at < end)
       cuts.push_back(at);
   std::sort(cuts.begin(), cuts.end());
-  const ContactFace<2> &face = solution.contact_space.faces()[piece.face];
+  const bool is_polynomial = !varies(face.friction) && !face.map.is_curved() && !piece.drawn;
   const QGauss<1> &gauss = solution.tables.gauss((degree(piece.face) + more) / 2 + 1 +
-                                                 (varies(rule) || face.map.is_curved() ? 8 : 0));
+                                                 (is_polynomial ? 0 : n_of_curve / 2));
   std::vector<std::pair<double, double>> result;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
-    {
-      const double width = cuts[k + 1] - cuts[k], at = cuts[k] + width * gauss.point(q)[0];
-      result.emplace_back(piece.begin + at * (piece.end - piece.begin), width * gauss.weight(q));
-    }
+      result.emplace_back(cuts[k] + (cuts[k + 1] - cuts[k]) * gauss.point(q)[0],
+                          (cuts[k + 1] - cuts[k]) * gauss.weight(q));
   return result;
 }
 
@@ -188,7 +265,7 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k) const
     {
       const double s = piece.begin + (piece.end - piece.begin) * gauss.point(q)[0],
                    weight = 2 * (piece.end - piece.begin) * gauss.weight(q);
-      const ContactFrame<2> frame = face.frame(s);
+      const ContactFrame<2> frame = face.node_frame(s);
       SymmetricTensor<2, 2> sigma =
           share * stress_at(solution, face.cell, point_on_face<2>(face.face_no, Point<1>(s)));
       if (piece.has_other)
@@ -240,6 +317,91 @@ void JointTractions::balance_moments()
   }
 }
 
+/** int (z_N - tau) . [v] for each motion v. */
+Vector<double> JointTractions::missing_work() const
+{
+  const Vector<double> forces = missing_forces();
+  std::map<types::global_dof_index, std::pair<const JointEdge *, unsigned int>> nodes;
+  for (const JointEdge &edge : all)
+  {
+    const unsigned int cell = edge.cell->active_cell_index();
+    const auto dofs = solution.displacement_space.cell_dofs(cell);
+    const auto &on_edge =
+        solution.tables.numbering(solution.displacement_space.degrees()[cell]).edge[edge.face_no];
+    for (unsigned int i = 0; i < on_edge.size(); ++i)
+      nodes[dofs[on_edge[i]]] = {&edge, i};
+  }
+  Vector<double> result(motions.size());
+  for (const auto &[dof, place] : nodes)
+  {
+    const auto &[edge, i] = place;
+    const unsigned int n =
+        solution.displacement_space.degrees()[edge->cell->active_cell_index()] + 1;
+    const Point<2> x =
+        map_of<2>(edge->cell)
+            .point(point_on_face<2>(edge->face_no, solution.tables.gauss_lobatto(n).point(i % n)));
+    const unsigned int body =
+        solution.contact_space.faces()[edge->pieces[0].face].bodies[edge->is_slave ? 0 : 1];
+    for (unsigned int m = 0; m < motions.size(); ++m)
+      result[m] += forces[dof] * motions[m].at(x, body)[i / n];
+  }
+  return result;
+}
+
+/** Along the motions that no support resists. */
+void JointTractions::balance_motions()
+{
+  const unsigned int n = motions.size();
+  if (n == 0)
+    return;
+  unit = solution.z.linfty_norm();
+  Vector<double> amounts(n);
+  LAPACKFullMatrix<double> work(n, n); // of what is added, by motion
+  const double little = 1e-6 / solution.scene.geometry.diameter();
+  for (const JointEdge &edge : all)
+    for (unsigned int k = 0; edge.is_slave && k < edge.pieces.size(); ++k)
+    {
+      const JointPiece &piece = edge.pieces[k];
+      const ContactFace<2> &face = solution.contact_space.faces()[piece.face];
+      const auto at = points(piece, piece.begin, piece.end, 4);
+      std::vector<Tensor<1, 2>> before;
+      added.reset();
+      for (const auto &[s, weight] : at)
+        before.push_back(value(piece.face, s));
+      for (unsigned int m = 0; m < n; ++m)
+      {
+        amounts = 0.;
+        amounts[m] = little;
+        added = sum(motions, amounts);
+        for (unsigned int q = 0; q < at.size(); ++q)
+        {
+          const auto &[s, weight] = at[q];
+          const Tensor<1, 2> more =
+              weight * measure(piece, s) / little * (value(piece.face, s) - before[q]);
+          for (unsigned int l = 0; l < n; ++l)
+            work(l, m) += more * motions[l].jump(face.point(s), face.bodies);
+        }
+      }
+    }
+  amounts = 0.;
+  work.compute_inverse_svd(1e-8);
+  for (unsigned int k = 0; k < 5; ++k) // shares meet each other
+  {
+    added = sum(motions, amounts);
+    Vector<double> change(n);
+    work.vmult(change, missing_work());
+    amounts += change;
+  }
+  added = sum(motions, amounts);
+  for (const ContactFace<2> &face : solution.contact_space.faces())
+    for (const double s : {0., 0.5, 1.})
+      if (!is_joint(face) && !(added->jump(face.point(s), face.bodies).norm() < 0.4))
+      {
+        added.reset(); // and the stress is out of balance
+        return;
+      }
+}
+
 Vector<double> JointTractions::missing_forces() const
 {
   Vector<double> result = solution.spaces->contact_operator.forces(solution.z);
@@ -253,20 +415,14 @@ Vector<double> JointTractions::missing_forces() const
     for (const Point<1> &node : solution.tables.gauss_lobatto(n).get_points())
       nodes.push_back(node[0]);
     for (const JointPiece &piece : edge.pieces)
-    {
-      const double width = std::abs(piece.at_end - piece.at_begin);
-      for (const auto &[s, weight] : points(piece, p))
+      for (const auto &[s, weight] : points(piece, piece.begin, piece.end, p))
       {
-        const double at = piece.on_slave(s),
-                     ds = width * weight *
-                          solution.contact_space.faces()[piece.face].frame(at).measure;
-        const Tensor<1, 2> force = (edge.is_slave ? -1. : 1.) * ds * value(piece.face, at);
+        const Tensor<1, 2> force = (edge.is_slave ? -weight : weight) * density(piece, s);
         const std::vector<double> phi = lagrange_basis(nodes, s);
         for (unsigned int c = 0; c < 2; ++c)
           for (unsigned int j = 0; j < n; ++j)
             result[dofs[on_edge[c * n + j]]] += force[c] * phi[j];
       }
-    }
   }
   return result;
 }

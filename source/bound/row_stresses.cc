@@ -241,8 +241,12 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
   for (unsigned int cell = 0; cell < cells.size(); ++cell)
     cut(cell);
   for (Cell &cell : cells)
+  {
     for (Part &part : cell.parts)
       parts.push_back(&part);
+    if (cell.whole)
+      parts.push_back(&*cell.whole);
+  }
   std::vector<EquilibrationCache::Signature> keys(parts.size());
   parallel_for_each(parts.size(), 8, [&](const unsigned int k) { keys[k] = key(*parts[k]); });
   using Kept = decltype(cache.row_elements)::mapped_type;
@@ -264,6 +268,39 @@ RowStresses::RowStresses(const Solution<2> &solution, const VertexPatches &patch
   parallel_for_each(cells.size(), 4, [&](const unsigned int cell) { set_cell(cell); });
 }
 
+namespace
+{
+/** The map of a box of a cell: a blend of its edges, as that of the cell is, with polynomials of the same degrees. */
+CellMap<2> map_of_part(const CellMap<2> &map, const BoundingBox<2> &box)
+{
+  CellMap<2>::Vertices corners;
+  for (const unsigned int v : GeometryInfo<2>::vertex_indices())
+    corners[v] = map.point(box.unit_to_real(GeometryInfo<2>::unit_cell_vertex(v)));
+  if (!map.is_curved())
+    return CellMap<2>(corners);
+  const auto blends = std::make_shared<EdgeBlends>();
+  for (unsigned int face = 0; face < 4; ++face)
+  {
+    unsigned int degree = 0;
+    for (const EdgeBlend &blend : {map.blends()[face], map.blends()[face ^ 1]})
+      degree = std::max(degree, blend ? blend.degree() : 0);
+    if (degree > 1)
+      (*blends)[face] = EdgeBlend(
+          CurvePiece(),
+          [&](const double s)
+          { return map.point(box.unit_to_real(point_on_face<2>(face, Point<1>(s)))); },
+          corners[GeometryInfo<2>::face_to_cell_vertices(face, 0)],
+          corners[GeometryInfo<2>::face_to_cell_vertices(face, 1)], degree);
+  }
+  return CellMap<2>(corners, blends);
+}
+} // namespace
+
+bool RowStresses::is_whole(const Part &part)
+{
+  return part.box.side_length(0) == 1. && part.box.side_length(1) == 1.;
+}
+
 /** Where edges of the other body end, and so what that exerts may jump. */
 void RowStresses::cut(const unsigned int index)
 {
@@ -282,6 +319,7 @@ void RowStresses::cut(const unsigned int index)
         }
   for (std::vector<double> &along : cuts)
     std::sort(along.begin(), along.end());
+  const BoundingBox<2> unit(std::pair<Point<2>, Point<2>>({0., 0.}, {1., 1.}));
   for (unsigned int y = 0; y + 1 < cuts[1].size(); ++y)
     for (unsigned int x = 0; x + 1 < cuts[0].size(); ++x)
     {
@@ -290,10 +328,9 @@ void RowStresses::cut(const unsigned int index)
       Part part{index, box, map, nullptr, 0., {}, 0.};
       if (cuts[0].size() > 2 || cuts[1].size() > 2)
       {
-        CellMap<2>::Vertices corners;
-        for (const unsigned int v : GeometryInfo<2>::vertex_indices())
-          corners[v] = map.point(box.unit_to_real(GeometryInfo<2>::unit_cell_vertex(v)));
-        part.map = CellMap<2>(corners);
+        part.map = map_of_part(map, box);
+        if (map.is_curved())
+          cells[index].whole = Part{index, unit, map, nullptr, size_of(map), {}, 0.};
       }
       part.h = size_of(part.map);
       cells[index].parts.push_back(part);
@@ -415,7 +452,7 @@ void RowStresses::add_stress(const Part &part, OfVertices &result) const
 {
   const unsigned int p = solution.displacement_space.degrees()[part.cell],
                      k = part.element->table.k,
-                     n_gauss = part.map.is_curved()
+                     n_gauss = part.map.is_curved() && is_whole(part)
                                    ? stiffness_points(part.map, p)
                                    : std::max(stiffness_points(part.map, k), k + 1),
                      n_modes = std::min(k + 1, n_gauss);
@@ -443,7 +480,7 @@ void RowStresses::add_stress(const Part &part, OfVertices &result) const
         for (unsigned int j = 0; j < n_modes; ++j)
           result.divergence[v][(row * (k + 1) + i) * (k + 1) + j] += modes(i, j);
     }
-  if (!part.map.is_curved())
+  if (!part.map.is_curved() || !is_whole(part))
     return;
   const BeyondSpace beyond(solution, patches.cells()[part.cell], part.map);
   const ShapeTable<2> &table = solution.tables.gradients(p, n_gauss);
@@ -460,7 +497,7 @@ void RowStresses::add_loads(Part &part, OfVertices &result)
   const auto &iterator = patches.cells()[part.cell].iterator;
   const unsigned int p = solution.displacement_space.degrees()[part.cell];
   std::optional<BeyondSpace> beyond;
-  if (part.map.is_curved())
+  if (part.map.is_curved() && is_whole(part))
     beyond.emplace(solution, patches.cells()[part.cell], part.map);
   const HookesLaw<2> law(scene.material_of(iterator));
   const auto force = [&](const Point<2> &x)
@@ -475,21 +512,36 @@ void RowStresses::add_loads(Part &part, OfVertices &result)
              beyond ? &*beyond : nullptr, nullptr, result);
   for (unsigned int face = 0; beyond && face < 4; ++face)
     if (part.map.blends()[face] && iterator->at_boundary(face))
+      add_work_beyond(part, face, *beyond, result);
+}
+
+/** Of what loads and contact exert on a curved edge, on what V_N lacks of each psi z. */
+void RowStresses::add_work_beyond(const Part &part, const unsigned int face,
+                                  const BeyondSpace &beyond, OfVertices &result) const
+{
+  const unsigned int p = solution.displacement_space.degrees()[part.cell];
+  std::map<double, ShapeTable<2>> at; // of all four psi
+  const auto lacking = [&](const unsigned int v, const double s)
+  {
+    auto found = at.find(s);
+    if (found == at.end())
+      found =
+          at.emplace(s, tabulate<2>(p, {point_on_face<2>(face, Point<1>(s))}, {1.}, false)).first;
+    return beyond.value(v, found->second, 0);
+  };
+  const JointEdge *const joint = joints ? joints->edge(part.cell, face) : nullptr;
+  for (unsigned int v = 0; v < 4; ++v)
+  {
+    result.moment[v] += boundary.work_of_loads(patches.cells()[part.cell].edges[face],
+                                               [&](const double s) { return lacking(v, s); });
+    for (unsigned int k = 0; joint && k < joint->pieces.size(); ++k)
     {
-      std::map<double, ShapeTable<2>> at; // of all four psi
-      for (unsigned int v = 0; v < 4; ++v)
-        result.moment[v] += boundary.work_of_loads(
-            patches.cells()[part.cell].edges[face],
-            [&](const double s)
-            {
-              auto found = at.find(s);
-              if (found == at.end())
-                found = at.emplace(
-                              s, tabulate<2>(p, {point_on_face<2>(face, Point<1>(s))}, {1.}, false))
-                            .first;
-              return beyond->value(v, found->second, 0);
-            });
+      const JointPiece &piece = joint->pieces[k];
+      for (const auto &[s, weight] : joints->points(piece, piece.begin, piece.end, p + 1))
+        result.moment[v] +=
+            (joint->is_slave ? -weight : weight) * (joints->density(piece, s) * lacking(v, s));
     }
+  }
 }
 
 /** Of a force and an initial stress, which @p load gives; @p of_force: what is to have the divergence of the force without psi. */
@@ -543,59 +595,111 @@ void RowStresses::add_joints(const Part &part, OfVertices &result) const
       continue;
     const unsigned int along = 1 - face / 2;
     const double begin = part.box.lower_bound(along), length = part.box.side_length(along);
-    for (JointPiece piece : edge->pieces)
+    const double turn =
+        (face % 2 ? 1. : -1.) / patches.edges()[patches.cells()[part.cell].edges[face]].length;
+    for (const JointPiece &piece : edge->pieces)
     {
       if (piece.begin > begin + length / 2 || piece.end < begin + length / 2)
         continue;
-      const std::array<double, 2> ends{{piece.on_slave(begin), piece.on_slave(begin + length)}};
-      piece.begin = 0.;
-      piece.end = 1.;
-      piece.at_begin = ends[0];
-      piece.at_end = ends[1];
-      for (const auto &[s, weight] : joints->points(piece, n))
+      for (const auto &[at, weight] : joints->points(piece, begin, begin + length, n))
       {
-        const Tensor<1, 2> T = (face % 2 ? 1. : -1.) * joints->value(piece.face, piece.on_slave(s));
+        const Tensor<1, 2> T = turn * joints->density(piece, at);
+        const double s = (at - begin) / length;
         const std::vector<double> L = legendre::values(n, 2 * s - 1);
         for (unsigned int v = 0; v < 4; ++v)
         {
           const double psi = hat(part, v, point_on_face<2>(face, Point<1>(s))).value;
           for (unsigned int row = 0; row < 2; ++row)
             for (unsigned int i = 0; i < n; ++i)
-              result.tractions[v][(2 * face + row) * n + i] += 2 * weight * psi * T[row] * L[i];
+              result.tractions[v][(2 * face + row) * n + i] +=
+                  2 * weight / length * psi * T[row] * L[i];
         }
       }
     }
   }
 }
 
-/** Data of each psi: their gradients by tractions of faces, what they miss of equilibrium. */
+/** Data of each psi: divergences, and tractions that the slave exerts. */
 RowStresses::OfVertices RowStresses::data_of(Part &part)
 {
   const RowElement &element = *part.element;
-  const unsigned int n = element.table.k + 1, n_edges = 8 * n;
+  const unsigned int n = element.table.k + 1;
   part.divergence.assign(2 * n * n, 0.);
   OfVertices result;
   for (unsigned int v = 0; v < 4; ++v)
   {
     result.divergence[v].assign(2 * n * n, 0.);
-    result.tractions[v].assign(n_edges, 0.);
+    result.tractions[v].assign(8 * n, 0.);
   }
   add_stress(part, result);
   add_loads(part, result);
   if (joints)
     add_joints(part, result);
+  if (!part.map.is_curved() || !is_whole(part))
+    return result;
+  const std::vector<double> moment = unit_moment(
+      element, part.map, part.h,
+      std::min(n, stiffness_points(part.map, solution.displacement_space.degrees()[part.cell])));
+  for (unsigned int v = 0; v < 4; ++v)
+    for (unsigned int i = 0; i < moment.size(); ++i)
+      result.divergence[v][i] += result.moment[v] / (part.h * part.h) * moment[i];
+  return result;
+}
+
+/**
+ * The discrete equations know a curved cell by the points of its stiffness, and its parts by others: the first part takes the difference, three
+ * numbers for each psi, that sum to zero.
+ */
+void RowStresses::balance_parts(Cell &cell, std::vector<OfVertices> &data)
+{
+  const OfVertices whole = data_of(*cell.whole);
+  const RowElement &element = *cell.parts[0].element, &of_whole = *cell.whole->element;
+  const unsigned int n = element.table.k + 1;
+  std::array<std::vector<double>, 3> fields; // of two forces and a moment
+  FullMatrix<double> work(3, 3);
+  for (unsigned int z = 0; z < 3; ++z)
+  {
+    fields[z].assign(2 * n * n, 0.);
+    if (z < 2)
+      fields[z][z * n * n] = 1.;
+    else
+      fields[z] = unit_moment(element, cell.parts[0].map, cell.parts[0].h, n);
+    const std::array<double, 3> of_field =
+        cell.joined->of_cell(0, element.moments(fields[z].data()));
+    for (unsigned int c = 0; c < 3; ++c)
+      work(c, z) = of_field[c];
+  }
+  work.gauss_jordan();
+  for (unsigned int v = 0; v < 4; ++v)
+  {
+    const std::array<double, 3> wanted = of_whole.moments(whole.divergence[v].data());
+    Vector<double> missing(3), amounts(3);
+    for (unsigned int z = 0; z < 3; ++z)
+      missing[z] = of_whole.lengths[z] / cell.joined->lengths()[z] * wanted[z];
+    for (unsigned int k = 0; k < cell.parts.size(); ++k)
+    {
+      const std::array<double, 3> there =
+          cell.joined->of_cell(k, cell.parts[k].element->moments(data[k].divergence[v].data()));
+      for (unsigned int z = 0; z < 3; ++z)
+        missing[z] -= there[z];
+    }
+    work.vmult(amounts, missing);
+    for (unsigned int z = 0; z < 3; ++z)
+      for (unsigned int i = 0; i < fields[z].size(); ++i)
+        data[0].divergence[v][i] += amounts[z] * fields[z][i];
+  }
+}
+
+/** Of the energy by tractions of faces, and what is missing of equilibrium. */
+void RowStresses::set_gradients(const Part &part, OfVertices &data) const
+{
+  const RowElement &element = *part.element;
+  const unsigned int n = element.table.k + 1, n_edges = 8 * n;
   const std::vector<SymmetricTensor<2, 2>> stress = stress_at_points(part);
-  std::vector<double> moment;
-  if (part.map.is_curved())
-    moment = unit_moment(
-        element, part.map, part.h,
-        std::min(n, stiffness_points(part.map, solution.displacement_space.degrees()[part.cell])));
   const TractionEnergy energy = element.energy();
   for (unsigned int v = 0; v < 4; ++v)
   {
-    std::vector<double> &divergence = result.divergence[v];
-    for (unsigned int i = 0; i < moment.size(); ++i)
-      divergence[i] += result.moment[v] / (part.h * part.h) * moment[i];
+    const std::vector<double> &divergence = data.divergence[v];
     RowFields fields(element.table);
     for (unsigned int row = 0; row < 2; ++row)
       std::copy(&divergence[row * n * n], &divergence[row * n * n] + n * n,
@@ -605,19 +709,18 @@ RowStresses::OfVertices RowStresses::data_of(Part &part)
     for (unsigned int q = 0; q < stress.size(); ++q)
       element.values.subtract(q, stress[q], hat(part, v, element.table.points[q]).value,
                               difference);
-    result.gradients[v] = element.reduced(element.values.derivatives(difference));
-    result.defects[v] = element.moments(divergence.data());
-    for (double &defect : result.defects[v])
+    data.gradients[v] = element.reduced(element.values.derivatives(difference));
+    data.defects[v] = element.moments(divergence.data());
+    for (double &defect : data.defects[v])
       defect = -defect;
-    if (std::all_of(result.tractions[v].begin(), result.tractions[v].end(),
+    if (std::all_of(data.tractions[v].begin(), data.tractions[v].end(),
                     [](const double value) { return value == 0.; }))
       continue;
-    multiply('N', 'N', n_edges, 1, n_edges, 1., energy.G, {result.tractions[v].data(), n_edges}, 1.,
-             result.gradients[v].data(), n_edges);
-    multiply('T', 'N', 3, 1, n_edges, 1., energy.N, {result.tractions[v].data(), n_edges}, 1.,
-             result.defects[v].data(), 3);
+    multiply('N', 'N', n_edges, 1, n_edges, 1., energy.G, {data.tractions[v].data(), n_edges}, 1.,
+             data.gradients[v].data(), n_edges);
+    multiply('T', 'N', 3, 1, n_edges, 1., energy.N, {data.tractions[v].data(), n_edges}, 1.,
+             data.defects[v].data(), 3);
   }
-  return result;
 }
 
 void RowStresses::set_cell(const unsigned int index)
@@ -626,9 +729,16 @@ void RowStresses::set_cell(const unsigned int index)
   std::array<CutElement::Data, 4> data; // by vertex
   std::array<std::vector<double>, 4> gradients;
   std::array<std::array<double, 3>, 4> defects;
+  std::vector<OfVertices> of_parts;
   for (Part &part : cell.parts)
+    of_parts.push_back(data_of(part));
+  if (cell.whole)
+    balance_parts(cell, of_parts);
+  for (unsigned int k = 0; k < cell.parts.size(); ++k)
   {
-    const OfVertices own = data_of(part);
+    Part &part = cell.parts[k];
+    OfVertices &own = of_parts[k];
+    set_gradients(part, own);
     part.tractions = own.tractions[0];
     for (unsigned int v = 0; v < 4; ++v)
     {
@@ -889,22 +999,24 @@ std::vector<RowStresses::JointPart> RowStresses::joint_parts(const unsigned int 
 
 double RowStresses::missed_traction(const unsigned int index, const unsigned int face) const
 {
+  const unsigned int number = patches.cells()[index].edges[face];
+  const StressEdge &edge = patches.edges()[number];
   double square = 0;
   for (const auto &[begin, end, components] : joint_parts(index, face))
     for (const JointPiece &piece : master(index, face)->pieces)
-      for (const auto &[s, weight] : joints->points(piece, 2 * components[0].size()))
-        if (s > begin && s < end)
+      if (const double middle = (begin + end) / 2; piece.begin < middle && piece.end > middle)
+        for (const auto &[s, weight] : joints->points(piece, begin, end, 2 * components[0].size()))
         {
           const Tensor<1, 2> exact =
-              (face % 2 ? 1. : -1.) * joints->value(piece.face, piece.on_slave(s));
+              (face % 2 ? 1. : -1.) / edge.length * joints->density(piece, s);
           for (unsigned int row = 0; row < 2; ++row)
           {
             const double missed =
                 legendre::evaluate(components[row], 2 * (s - begin) / (end - begin) - 1) -
                 exact[row];
-            square += (piece.end - piece.begin) * weight * missed * missed;
+            square += edge.length / boundary.stretch(edge, s) * weight * missed * missed;
           }
         }
-  return std::sqrt(square * patches.edges()[patches.cells()[index].edges[face]].length);
+  return std::sqrt(square);
 }
 } // namespace hpvi

@@ -63,27 +63,20 @@ std::string unmatched_joint(const ContactSpace<dim> &contact_space)
 }
 
 template <int dim>
-std::string unbounded_joint(const ContactSpace<dim> &contact_space)
-{
-  const std::string unmatched = unmatched_joint(contact_space);
-  for (const ContactFace<dim> &face : contact_space.faces())
-    for (const ContactSegment<dim> &segment : face.segments)
-      if (!unmatched.empty() && (segment.drawn || map_of<dim>(segment.cell).is_curved()))
-        return unmatched + ", where sides are curved or at an angle to each other";
-  return {};
-}
-
-template <int dim>
 bool has_given_tractions(const ContactSpace<dim> &contact_space)
 {
   if (!unmatched_joint(contact_space).empty())
     return true;
   for (const ContactFace<dim> &face : contact_space.faces())
+  {
+    if (face.map.is_curved() || (!face.segments.empty() && face.segments[0].drawn))
+      return true;
     for (const double s : {0., 0.5, 1.})
       if (const Tensor<1, dim> normal =
               contact_frame(face.map, face.face_no, Point<dim - 1>(s)).normal;
           (face.frame(s).normal - normal).norm() > 1e-12)
         return true;
+  }
   return false;
 }
 
@@ -121,7 +114,7 @@ std::vector<bool> nested_cells(const ContactSpace<dim> &contact_space, const uns
 
 namespace
 {
-/** The first boundary along a curve whose normal displacement is held, or has a bound; null: there is none. */
+/** The first boundary along a curve whose normal displacement is held by a rigid foundation; null: there is none. */
 template <int dim>
 const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
 {
@@ -129,7 +122,7 @@ const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
     return nullptr;
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if ((boundary.has_contact() && !boundary.contact_direction) || boundary.symmetry)
+    if (boundary.holds_normal() && !boundary.contact_direction)
       for (const CurvePiece &curve : sides[boundary.id].curves)
         if (curve)
           return &boundary;
@@ -152,7 +145,8 @@ std::string no_error_bound(const Scene<dim> &scene)
     return "cells have degree 1";
   if (const BoundaryCondition<dim> *const curved = curved_contact(scene))
     return "the normal of " + printable(curved->name) +
-           " turns along a curved edge, and tractions of a stress in equilibrium do not follow it";
+           " turns along a curved edge on which it is held, and what holds it there is not known "
+           "at every point";
   return {};
 }
 
@@ -223,7 +217,6 @@ void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<d
 template struct FaceDofs<2>;
 template const ContactSegment<2> *whole_face_opposite(const ContactFace<2> &);
 template std::string unmatched_joint(const ContactSpace<2> &);
-template std::string unbounded_joint(const ContactSpace<2> &);
 template bool has_given_tractions(const ContactSpace<2> &);
 template std::string no_error_bound(const Scene<2> &);
 template std::string no_error_bound(const Scene<3> &);

@@ -587,6 +587,112 @@ TEST(JointBound, BoundsTheErrorWhereTractionsAreGiven)
   }
 }
 
+/** Rings of 90 degrees in each other, the inner one too large by 0.03, between planes of symmetry. */
+Overrides rings(const std::string &inner, const std::string &outer, const std::string &between)
+{
+  Overrides entries{given::ring("Body in", "20, 30", "0, 90", inner),
+                    {"Body in/Material", "bronze"},
+                    given::ring("Body out", "30, 45", "0, 90", outer),
+                    given::elastic("210000", "0.3"),
+                    given::elastic("110000", "0.34", "bronze"),
+                    {"Material/Plane", "strain"},
+                    {"Contact fit/Between", between},
+                    {"Contact fit/Gap", "-0.03"}};
+  for (const char *const side : {"in.start", "in.end", "out.start", "out.end"})
+    entries.emplace_back("Boundary " + std::string(side) + "/Symmetry", "true");
+  return entries;
+}
+
+/** A ring in a rigid seat that is narrower by 0.02. */
+Overrides seated(const std::string &cells)
+{
+  return {given::ring("Geometry", "30, 40", "-30, 30", cells),
+          given::elastic("210000", "0.3"),
+          {"Material/Plane", "strain"},
+          {"Boundary start/Symmetry", "true"},
+          {"Boundary end/Symmetry", "true"},
+          {"Boundary outer/Contact", "unilateral"},
+          {"Boundary outer/Gap", "-0.02"}};
+}
+
+/** Lame's rings press each other with P: J = P delta b/2 times their angle, by the radial displacements of both. */
+TEST(JointBound, HoldsLamesEnergies)
+{
+  const double b = 30, nu_in = 0.34 / 0.66, nu_out = 0.3 / 0.7,
+               in = (1 - 0.34 * 0.34) / 110000 * ((b * b + 400) / (b * b - 400) - nu_in),
+               out = (1 - 0.09) / 210000 * ((2025 + b * b) / (2025 - b * b) + nu_out),
+               of_pair = 0.03 * 0.03 / (in + out) / 2 * numbers::PI / 2,
+               alone = (1 - 0.09) / 210000 * ((1600. + 900.) / (1600. - 900.) - nu_out),
+               of_seat = 0.02 * 0.02 / alone / 2 * numbers::PI / 3;
+  for (const auto &[entries, J] : {std::pair{rings("1, 2", "1, 3", "in.outer, out.inner"), of_pair},
+                                   {rings("1, 3", "1, 2", "out.inner, in.outer"), of_pair},
+                                   {rings("1, 2", "1, 2", "in.outer, out.inner"), of_pair},
+                                   {seated("1, 4"), of_seat}})
+    for (const std::string method : {"hup2", "hpa3"})
+    {
+      const std::vector<Step> steps = run(scene_of({entries,
+                                                    {"Error/Bound", "true"},
+                                                    {"Adaptivity/Method", method},
+                                                    {"Adaptivity/Maximum steps", "4"}}));
+      ASSERT_EQ(steps.size(), 4U);
+      for (const Step &step : steps)
+      {
+        EXPECT_LT(step.low, J);
+        EXPECT_GT(step.high, J * (1 - 1e-9)); // of polynomials in the place of circles
+        EXPECT_LT(step.high - step.low, 4e-3 * J);
+        EXPECT_LT(step.bound, 0.09 * std::sqrt(2 * J));
+      }
+    }
+}
+
+/** Contact that ends along curves: intervals of all steps of two methods meet, and get narrow. */
+TEST(JointBound, MeetsItselfAlongCurves)
+{
+  const Overrides disc{given::half_disc("Body disc", "0, 1", "1", "180"),
+                       {"Boundary disc.flat/Displacement", "0.004; -0.01"},
+                       {"Body disc/Material", "soft"},
+                       given::elastic("0.5", "0.25", "soft"),
+                       given::elastic("1", "0.3"),
+                       {"Contact line/Law", "unilateral"}};
+  const Overrides block = with({disc, given::block("below", "-2, -1", "2, 0", "5, 2")},
+                               {{"Boundary below.bottom/Displacement", "0; 0"}}),
+                  other = with({disc, given::half_disc("Body below", "0, -20", "20", "0"),
+                                given::graded("Body below", "0, 0", "4")},
+                               {{"Boundary below.flat/Displacement", "0; 0"}});
+  const Overrides alone{given::half_disc("Geometry", "0, 1", "1", "180"),
+                        given::elastic("1", "0.3"),
+                        {"Boundary flat/Displacement", "0.004; -0.01"},
+                        {"Boundary rim/On", "arc"},
+                        {"Boundary rim/Where", "0.29289 - y"},
+                        {"Boundary rim/Contact", "unilateral"},
+                        {"Boundary rim/Gap", "y/(1 - y)"},
+                        {"Boundary rim/Friction bound", "0.002"}};
+  for (const Overrides &entries : {with(block, {{"Contact line/Between", "disc.arc, below.top"}}),
+                                   with(block, {{"Contact line/Between", "below.top, disc.arc"},
+                                                {"Contact line/Friction bound", "0.002"}}),
+                                   with(other, {{"Contact line/Between", "disc.arc, below.arc"},
+                                                {"Contact line/Friction bound", "0.002"}}),
+                                   alone})
+  {
+    double low = -std::numeric_limits<double>::infinity(), high = -low, n = 0;
+    for (const std::string method : {"hup2", "hpa3"})
+      for (const Step &step :
+           run(scene_of({entries,
+                         {"Error/Bound", "true"},
+                         {"Adaptivity/Method", method},
+                         {"Adaptivity/Start degree", "5"},
+                         {"Adaptivity/Maximum steps", method == "hup2" ? "2" : "6"}})))
+      {
+        low = std::max(low, step.low);
+        high = std::min(high, step.high);
+        ++n;
+      }
+    EXPECT_GE(n, 7);
+    EXPECT_LT(low, high * (1 + 1e-7));
+    EXPECT_LT(high - low, 1e-3 * high);
+  }
+}
+
 /** What one body exerts is what the other bears, at every point, and within the law. */
 TEST(JointBound, HandsTractionsOverWhereMeshesDoNotMatch)
 {

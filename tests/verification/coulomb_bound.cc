@@ -313,6 +313,31 @@ TEST(CoulombBound, HoldsAgainstFinerRuns)
   }
 }
 
+/** Along curves and directions and where meshes do not match the number is an estimate, with the reason, and falls. */
+TEST(CoulombBound, EstimatesWhereTheCouplingIsNotKnown)
+{
+  for (const std::string name :
+       {"press-ring", "bush", "brake-shoe", "dovetail", "jaws", "askew", "stack"})
+  {
+    SCOPED_TRACE(name);
+    std::vector<double> estimates;
+    AdaptiveSolver<2>(shipped_scene(name, {{"Adaptivity/Maximum steps", "3"},
+                                           {"Error/Bound", "true"},
+                                           {"Adaptivity/Indicator", "residual"}}))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              EXPECT_FALSE(step.bound);
+              EXPECT_EQ(step.equilibrated.kind, "estimate");
+              EXPECT_NE(step.no_bound.find("coupling"), std::string::npos) << step.no_bound;
+              estimates.push_back(step.equilibrated.norm);
+            });
+    ASSERT_EQ(estimates.size(), 3U);
+    EXPECT_LT(estimates[2], estimates[0]);
+    EXPECT_GT(estimates[2], 0);
+  }
+}
+
 /** Two of the scenes as a body of nine times the thickness: three times the bound. */
 TEST(CoulombBound, CountsThickness)
 {

@@ -45,6 +45,15 @@ public:
   std::vector<double> gradient(const Data &data) const; ///< for energy()
   std::array<double, 3> defect(const Data &data) const;
 
+  /** Of what RowElement::moments() has for a box what it is for the cell, in the same units as the defect. */
+  std::array<double, 3> of_cell(unsigned int box, const std::array<double, 3> &moments) const;
+
+  /** Of its conditions before they had length 1, as RowElement::lengths. */
+  const std::array<double, 3> &lengths() const
+  {
+    return norms;
+  }
+
   /** Tractions on the faces of each box, those in @p data not among them, for @p faces of the cell. */
   std::vector<std::vector<double>> tractions(const std::vector<double> &faces,
                                              const Data &data) const;
@@ -70,6 +79,7 @@ private:
       factor; ///< of the inner tractions and the multipliers of their conditions
   dealii::FullMatrix<double> best; ///< n x n_faces: all tractions by those on faces, without data
   std::vector<double> G, N;
+  std::array<double, 3> norms;
   std::vector<dealii::FullMatrix<double>> conditions; ///< by box: of the cell by those of the box
 };
 } // namespace hpvi

@@ -54,13 +54,13 @@ private:
     std::array<Mode, 2> modes{{any, any}};
     std::array<EdgePolynomial, 2> jump;   ///< [u_N] by normal and tangent along the piece, less u_0
     std::array<EdgePolynomial, 2> change; ///< [d] likewise
-    std::array<std::array<double, 2>, 2> at_ends{}; ///< of [d]: end, component
+    std::array<EdgePolynomial, 2> d;      ///< by its components
+    std::array<dealii::Tensor<1, 2>, 2> at_ends; ///< d
   };
   struct Mover
   {
     const JointEdge *edge;
     double sign; ///< of d in [d]
-    dealii::Tensor<1, 2> normal, tangent;
     std::array<unsigned int, 2> vertices;
     std::array<EdgePolynomial, 2> w; ///< its components along the edge
     std::vector<Piece> pieces;       ///< they fill the edge
@@ -75,9 +75,12 @@ private:
   void choose_movers();
   Mover mover(const JointEdge &edge) const;
   Piece piece(const JointPiece &place, const JointEdge &edge, double sign) const;
+  std::array<dealii::Tensor<1, 2>, 2> frame(const Piece &piece, double t) const;
+  unsigned int points_along(const Piece &piece, unsigned int degree) const;
   void set_vertices(const NodeFreedom &freedom);
   void set_ends(Mover &mover) const;
   void set_changes(Mover &mover);
+  void set_change(Piece &piece, double sign, unsigned int c);
   void add_rest(const Mover &mover);
   void set_w();
   void set_nodes(Mover &mover, dealii::Vector<double> &u) const;

@@ -8,6 +8,7 @@
 #include <hpvi/bound/row_element.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,7 @@ private:
   struct Cell
   {
     std::vector<Part> parts;
+    std::optional<Part> whole;          ///< of a curved cell that is cut
     unsigned int n_xi;                  ///< of them along xi
     const CutElement *joined = nullptr; ///< of several parts
     CutElement::Data data;              ///< for that, without hats
@@ -97,6 +99,7 @@ private:
   };
 
   void cut(unsigned int cell);
+  static bool is_whole(const Part &part);
   bool is_on(const Part &part, unsigned int face) const;
   const JointEdge *master(unsigned int cell, unsigned int face) const;
   EquilibrationCache::Signature key(const Part &part) const;
@@ -108,8 +111,12 @@ private:
   template <class Load>
   void add_load(const Part &part, const LoadRule<2> &rule, const Load &load,
                 const BeyondSpace *beyond, std::vector<double> *of_force, OfVertices &result) const;
+  void add_work_beyond(const Part &part, unsigned int face, const BeyondSpace &beyond,
+                       OfVertices &result) const;
   void add_joints(const Part &part, OfVertices &result) const;
   OfVertices data_of(Part &part);
+  void balance_parts(Cell &cell, std::vector<OfVertices> &data);
+  void set_gradients(const Part &part, OfVertices &data) const;
   void set_cell(unsigned int cell);
   void join_parts();
   std::vector<dealii::SymmetricTensor<2, 2>> stress_at_points(const Part &part) const;

@@ -48,11 +48,7 @@ std::string no_error_bound(const Scene<dim> &scene);
 template <int dim>
 std::string unmatched_joint(const ContactSpace<dim> &contact_space);
 
-/** Where such faces are curved, or at an angle to each other, so that tractions of one are no polynomials on the other, likewise. */
-template <int dim>
-std::string unbounded_joint(const ContactSpace<dim> &contact_space);
-
-/** Do meshes not match, or is contact along another direction than the normal? Then JointTractions give what contact exerts. */
+/** Do meshes not match, or is contact along a curve or another direction than the normal? Then JointTractions give what contact exerts. */
 template <int dim>
 bool has_given_tractions(const ContactSpace<dim> &contact_space);
 
