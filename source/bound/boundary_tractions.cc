@@ -176,11 +176,13 @@ void BoundaryTractions::add_contact(const unsigned int index)
   }
 }
 
-/** On the slave's side; a master has those of each of its pieces. */
+/** On the slave's side, where it is not cut; else each piece has its own. */
 void BoundaryTractions::add_joint(const unsigned int index)
 {
   const StressEdge &edge = patches.edges()[index];
   const JointPiece &piece = joints->edges()[edge.contact_face].pieces[0];
+  if (joints->edges()[edge.contact_face].is_cut)
+    return;
   for (const auto &[s, weight] : joints->points(piece, 0., 1., edge.degree + 1))
   {
     const Tensor<1, 2> T = -outward(edge) / edge.length * joints->density(piece, s);
@@ -200,6 +202,8 @@ Tensor<1, 2> BoundaryTractions::value(const unsigned int index, const double s) 
   const StressEdge &edge = patches.edges()[index];
   const Tensor<1, 2> result = load(index, s);
   if (edge.contact_face == numbers::invalid_unsigned_int)
+    return result;
+  if (joints && joints->edges()[edge.contact_face].is_cut)
     return result;
   if (joints)
     return result - outward(edge) / edge.length *

@@ -19,26 +19,6 @@ namespace
 {
 constexpr double round_off = 1e-12; ///< of the largest displacement
 
-/** u_N at a point of an edge of a cell. */
-Tensor<1, 2> displacement_at(const Solution<2> &solution,
-                             const DoFHandler<2>::active_cell_iterator &cell,
-                             const unsigned int face_no, const double s)
-{
-  const unsigned int index = cell->active_cell_index(),
-                     p = solution.displacement_space.degrees()[index];
-  const auto dofs = solution.displacement_space.cell_dofs(index);
-  const std::vector<unsigned int> &on_edge = solution.tables.numbering(p).edge[face_no];
-  std::vector<double> nodes;
-  for (const Point<1> &node : solution.tables.gauss_lobatto(p + 1).get_points())
-    nodes.push_back(node[0]);
-  const std::vector<double> phi = lagrange_basis(nodes, s);
-  Tensor<1, 2> result;
-  for (unsigned int c = 0; c < 2; ++c)
-    for (unsigned int j = 0; j <= p; ++j)
-      result[c] += phi[j] * solution.u[dofs[on_edge[c * (p + 1) + j]]];
-  return result;
-}
-
 /** A polynomial of degree below n by its values. */
 template <class Function>
 EdgePolynomial polynomial(const unsigned int n, const ShapeTables<2> &tables, const Function &value)
@@ -147,10 +127,7 @@ JointLift::Piece JointLift::piece(const JointPiece &place, const JointEdge &edge
   const BoundaryCondition<2> &law = *face.condition;
   Piece result(place, /*is_joint=*/true);
   if (law.is_unilateral())
-    result.modes[0] = std::all_of(face.pressures.begin(), face.pressures.end(),
-                                  [&](const unsigned int i) { return solution.z[i] > 0.; })
-                          ? exact
-                          : below;
+    result.modes[0] = tractions.presses(place) ? exact : below;
   else if (law.contact != Contact::tangential)
     result.modes[0] = exact;
   if (law.is_tied() || (face.n_multipliers > 0 && slips[place.face].mode == Slip::nowhere))

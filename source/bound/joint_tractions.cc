@@ -3,6 +3,7 @@
 // Where meshes of two bodies do not match, the patches of one end inside edges of the other. What one hands over to the other is
 // given there: tractions that the laws admit, polynomials on each edge of the slave, pieces of polynomials on those of the master. A
 // displacement x makes up for what they miss of z_N, so that all patches of both bodies are in balance (doc/bound.md).
+#include <hpvi/base/tolerances.h>
 #include <hpvi/bound/joint_tractions.h>
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/pressed_face.h>
@@ -19,6 +20,25 @@ using namespace dealii;
 double stiffness(const Solution<2> &solution, const DoFHandler<2>::active_cell_iterator &cell)
 {
   return solution.scene.material_of(cell).residual_weight();
+}
+
+Tensor<1, 2> displacement_at(const Solution<2> &solution,
+                             const DoFHandler<2>::active_cell_iterator &cell,
+                             const unsigned int face_no, const double s)
+{
+  const unsigned int index = cell->active_cell_index(),
+                     p = solution.displacement_space.degrees()[index];
+  const auto dofs = solution.displacement_space.cell_dofs(index);
+  const std::vector<unsigned int> &on_edge = solution.tables.numbering(p).edge[face_no];
+  std::vector<double> nodes;
+  for (const Point<1> &node : solution.tables.gauss_lobatto(p + 1).get_points())
+    nodes.push_back(node[0]);
+  const std::vector<double> phi = lagrange_basis(nodes, s);
+  Tensor<1, 2> result;
+  for (unsigned int c = 0; c < 2; ++c)
+    for (unsigned int j = 0; j <= p; ++j)
+      result[c] += phi[j] * solution.u[dofs[on_edge[c * (p + 1) + j]]];
+  return result;
 }
 
 namespace
@@ -57,7 +77,29 @@ std::shared_ptr<const FacingCoordinates> facing(const ContactSegment<2> &segment
 }
 } // namespace
 
-std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
+namespace
+{
+/** Of a face, cut once more at s. */
+std::vector<ContactSegment<2>> segments_of(const ContactFace<2> &face, const double s)
+{
+  std::vector<ContactSegment<2>> result;
+  for (const ContactSegment<2> &segment : face.segments)
+  {
+    ContactSegment<2> before = segment, after = segment;
+    if (s > segment.begin + same_on_edge && s < segment.end - same_on_edge)
+    {
+      before.end = after.begin = s;
+      before.at_end = after.at_begin = segment.opposite(s);
+      result.push_back(before);
+    }
+    result.push_back(after);
+  }
+  return result;
+}
+} // namespace
+
+std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space,
+                                   const std::vector<double> &ends)
 {
   const std::vector<ContactFace<2>> &faces = contact_space.faces();
   std::vector<JointEdge> slaves;
@@ -65,7 +107,8 @@ std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     JointEdge &slave = slaves.emplace_back(JointEdge{faces[k].cell, faces[k].face_no, true, {}});
-    for (const ContactSegment<2> &segment : faces[k].segments)
+    slave.is_cut = ends[k] > 0.;
+    for (const ContactSegment<2> &segment : segments_of(faces[k], ends[k]))
     {
       const auto drawn = facing(segment);
       slave.pieces.push_back({segment.begin, segment.end, k, segment.begin, segment.end,
@@ -87,12 +130,16 @@ std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space)
       }
       master.pieces.push_back(piece);
     }
-    if (slave.pieces.empty())
-      slave.pieces.push_back({0., 1., k, 0., 1., faces[k].cell, faces[k].face_no, 0., 1.,
-                              /*has_other=*/false, /*is_slave=*/true, nullptr});
+    const std::vector<double> cuts =
+        slave.is_cut ? std::vector<double>{0., ends[k], 1.} : std::vector<double>{0., 1.};
+    for (unsigned int i = 0; faces[k].segments.empty() && i + 1 < cuts.size(); ++i)
+      slave.pieces.push_back({cuts[i], cuts[i + 1], k, cuts[i], cuts[i + 1], faces[k].cell,
+                              faces[k].face_no, cuts[i], cuts[i + 1], /*has_other=*/false,
+                              /*is_slave=*/true, nullptr});
   }
   for (auto &[place, master] : masters)
   {
+    master.is_cut = true;
     std::sort(master.pieces.begin(), master.pieces.end(),
               [](const JointPiece &a, const JointPiece &b) { return a.begin < b.begin; });
     slaves.push_back(std::move(master));
@@ -128,20 +175,34 @@ bool is_joint(const ContactFace<2> &face)
 }
 } // namespace
 
+namespace
+{
+/** Where contact ends inside a face: is its first point pressed? */
+bool presses_first(const ContactFace<2> &face, const Solution<2> &solution)
+{
+  return solution.z[face.pressures.front()] > 0.;
+}
+} // namespace
+
 JointTractions::JointTractions(const Solution<2> &solution, const AdmissibleFriction<2> &friction,
                                const AdmissiblePressure<2> &pressure)
-    : solution(solution), friction(friction), all(joint_edges(solution.contact_space)),
-      parts(solution.contact_space.faces().size()), motions(solution.scene.free_motions())
+    : solution(solution), friction(friction), parts(solution.contact_space.faces().size()),
+      motions(solution.scene.free_motions())
 {
+  for (unsigned int k = 0; k < parts.size(); ++k)
+    ends.push_back(end_of_contact(k));
+  all = joint_edges(solution.contact_space, ends);
   for (unsigned int k = 0; k < all.size(); ++k)
     by_cell[{all[k].cell->active_cell_index(), all[k].face_no}] = k;
   for (unsigned int k = 0; k < parts.size(); ++k)
   {
     const ContactFace<2> &face = solution.contact_space.faces()[k];
-    if (face.condition->is_unilateral())
+    if (ends[k] > 0.)
+      set_pressure_before_end(k);
+    else if (face.condition->is_unilateral())
       parts[k][0] = pressure.value(k);
     else if (is_joint(face))
-      parts[k] = wanted(k);
+      parts[k] = wanted(k, 0., 1.);
     if (!face.condition->is_tied())
       parts[k][1] = {};
   }
@@ -174,10 +235,29 @@ std::array<double, 2> JointTractions::share_of_motions(const unsigned int k, con
 double JointTractions::pressure(const unsigned int k, const double s) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[k];
-  const double own = parts[k][0](s), share = share_of_motions(k, s)[0];
+  double begin = 0., width = 1.;
+  if (ends[k] > 0.)
+  {
+    const bool is_first = presses_first(face, solution);
+    if ((s < ends[k]) != is_first)
+      return 0.;
+    begin = is_first ? 0. : ends[k];
+    width = is_first ? ends[k] : 1. - ends[k];
+  }
+  const double own = parts[k][0]((s - begin) / width), share = share_of_motions(k, s)[0];
   return face.condition->is_unilateral() ? own * (1. + share)
          : is_joint(face)                ? own + unit * share
                                          : own;
+}
+
+bool JointTractions::presses(const JointPiece &piece) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[piece.face];
+  if (ends[piece.face] > 0.)
+    return ((piece.at_begin + piece.at_end) / 2 < ends[piece.face]) ==
+           presses_first(face, solution);
+  return std::all_of(face.pressures.begin(), face.pressures.end(),
+                     [&](const unsigned int i) { return solution.z[i] > 0.; });
 }
 
 double JointTractions::limit(const unsigned int k, const double s) const
@@ -249,14 +329,17 @@ std::vector<std::pair<double, double>> JointTractions::points(const JointPiece &
   return result;
 }
 
-/** Of degree p, along normal and tangent. */
-std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k) const
+/** Of degree p, along normal and tangent, nearest on a part of the face, whose mean is that of z_N there; by the share of it. */
+std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k, const double begin,
+                                                     const double end) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[k];
   const unsigned int n = face.degree + 1;
   std::array<std::vector<double>, 2> result{{std::vector<double>(n), std::vector<double>(n)}};
   for (const JointPiece &piece : all[k].pieces)
   {
+    if (const double middle = (piece.begin + piece.end) / 2; middle < begin || middle > end)
+      continue;
     const double mu = stiffness(solution, face.cell),
                  opposite = piece.has_other ? stiffness(solution, piece.other) : 0.,
                  share = piece.has_other ? opposite / (mu + opposite) : 1.;
@@ -264,7 +347,7 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k) const
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const double s = piece.begin + (piece.end - piece.begin) * gauss.point(q)[0],
-                   weight = 2 * (piece.end - piece.begin) * gauss.weight(q);
+                   weight = 2 * (piece.end - piece.begin) / (end - begin) * gauss.weight(q);
       const ContactFrame<2> frame = face.node_frame(s);
       SymmetricTensor<2, 2> sigma =
           share * stress_at(solution, face.cell, point_on_face<2>(face.face_no, Point<1>(s)));
@@ -273,7 +356,7 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k) const
                  stress_at(solution, piece.other,
                            point_on_face<2>(piece.other_face, Point<1>(piece.on_other(s))));
       const Tensor<1, 2> traction = -(sigma * frame.normal);
-      const Vector<double> L = legendre_basis(n, s);
+      const Vector<double> L = legendre_basis(n, (s - begin) / (end - begin));
       for (unsigned int i = 0; i < n; ++i)
       {
         result[0][i] += weight * L[i] * (traction * frame.normal);
@@ -281,9 +364,67 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k) const
       }
     }
   }
-  result[0][0] = discrete_traction(face, solution, /*is_pressure=*/true).coefficients()[0];
-  result[1][0] = discrete_traction(face, solution, /*is_pressure=*/false).coefficients()[0];
+  for (unsigned int c = 0; c < 2; ++c)
+    result[c][0] =
+        discrete_traction(face, solution, /*is_pressure=*/c == 0).coefficients()[0] / (end - begin);
   return {{EdgePolynomial(result[0]), EdgePolynomial(result[1])}};
+}
+
+/** Where u_N opens last between the points of the multiplier that press and those that do not: there it needs no correction. */
+double JointTractions::end_of_contact(const unsigned int k) const
+{
+  const ContactFace<2> &face = solution.contact_space.faces()[k];
+  if (!face.condition->is_unilateral() || face.pressures.size() < 2)
+    return -1.;
+  std::vector<unsigned int> changes;
+  for (unsigned int i = 0; i + 1 < face.pressures.size(); ++i)
+    if ((solution.z[face.pressures[i]] > 0.) != (solution.z[face.pressures[i + 1]] > 0.))
+      changes.push_back(i);
+  if (changes.size() != 1)
+    return -1.;
+  double in = face.normal_points[changes[0]], out = face.normal_points[changes[0] + 1];
+  if (!presses_first(face, solution))
+    std::swap(in, out);
+  const auto is_open = [&](const double s)
+  {
+    Tensor<1, 2> jump = displacement_at(solution, face.cell, face.face_no, s);
+    if (!face.segments.empty())
+    {
+      const ContactSegment<2> &segment = face.segment(s);
+      jump -= displacement_at(solution, segment.cell, segment.face_no, segment.opposite(s));
+    }
+    return jump * face.node_frame(s).normal < gap_on_face(face, s);
+  };
+  constexpr unsigned int n = 16;
+  unsigned int i = 0;
+  while (i < n && is_open(out + (in - out) * i / n))
+    ++i;
+  if (i == 0)
+    return -1.;
+  double open = out + (in - out) * (i - 1) / n, closed = out + (in - out) * i / n;
+  for (unsigned int b = 0; i < n && b < 40; ++b)
+  {
+    const double s = (open + closed) / 2;
+    (is_open(s) ? open : closed) = s;
+  }
+  return closed > 0.02 && closed < 0.98 ? closed : -1.;
+}
+
+/** Nearest to sigma(u_N), and not negative: between that and its mean. */
+void JointTractions::set_pressure_before_end(const unsigned int k)
+{
+  const bool is_first = presses_first(solution.contact_space.faces()[k], solution);
+  const EdgePolynomial nearest = wanted(k, is_first ? 0. : ends[k], is_first ? ends[k] : 1.)[0];
+  std::vector<double> result = nearest.coefficients();
+  const double mean = std::max(0., result[0]) / std::sqrt(2.);
+  double least = mean;
+  for (const double s : nearest.extremes())
+    least = std::min(least, nearest(s));
+  const double share = least < 0. ? mean / (mean - least) : 1.;
+  for (unsigned int i = 1; i < result.size(); ++i)
+    result[i] *= 0.999999 * share;
+  result[0] = mean * std::sqrt(2.);
+  parts[k][0] = EdgePolynomial(result);
 }
 
 /** Along each side that cannot open: the moment that edges lack besides their means, by what is linear along each of them. */

@@ -308,7 +308,7 @@ void RowStresses::cut(const unsigned int index)
   const CellMap<2> map = map_of<2>(iterator);
   std::array<std::vector<double>, 2> cuts{{{0., 1.}, {0., 1.}}};
   for (unsigned int face = 0; face < 4; ++face)
-    if (const JointEdge *const edge = master(index, face))
+    if (const JointEdge *const edge = cut_edge(index, face))
       for (const JointPiece &piece : edge->pieces)
         for (const double end : {piece.begin, piece.end})
         {
@@ -344,11 +344,11 @@ bool RowStresses::is_on(const Part &part, const unsigned int face) const
   return part.box.vertex(face % 2 ? 3 : 0)[face / 2] == double(face % 2);
 }
 
-/** The edge of a master's face, or null. */
-const JointEdge *RowStresses::master(const unsigned int cell, const unsigned int face) const
+/** The edge of a face on which tau has pieces, or null. */
+const JointEdge *RowStresses::cut_edge(const unsigned int cell, const unsigned int face) const
 {
   const JointEdge *const edge = joints ? joints->edge(cell, face) : nullptr;
-  return edge && !edge->is_slave ? edge : nullptr;
+  return edge && edge->is_cut ? edge : nullptr;
 }
 
 /** Degree, material, corners and points; then what the map is. */
@@ -590,13 +590,13 @@ void RowStresses::add_joints(const Part &part, OfVertices &result) const
   const unsigned int n = part.element->table.k + 1;
   for (unsigned int face = 0; face < 4; ++face)
   {
-    const JointEdge *const edge = master(part.cell, face);
+    const JointEdge *const edge = cut_edge(part.cell, face);
     if (!edge || !is_on(part, face))
       continue;
     const unsigned int along = 1 - face / 2;
     const double begin = part.box.lower_bound(along), length = part.box.side_length(along);
-    const double turn =
-        (face % 2 ? 1. : -1.) / patches.edges()[patches.cells()[part.cell].edges[face]].length;
+    const double turn = ((face % 2 == 1) != edge->is_slave ? 1. : -1.) /
+                        patches.edges()[patches.cells()[part.cell].edges[face]].length;
     for (const JointPiece &piece : edge->pieces)
     {
       if (piece.begin > begin + length / 2 || piece.end < begin + length / 2)
@@ -986,7 +986,7 @@ std::vector<RowStresses::JointPart> RowStresses::joint_parts(const unsigned int 
 {
   std::vector<JointPart> result;
   for (const Part &part : cells[index].parts)
-    if (master(index, face) && is_on(part, face))
+    if (cut_edge(index, face) && is_on(part, face))
     {
       const unsigned int along = 1 - face / 2, n = part.element->table.k + 1;
       const auto first = part.tractions.begin() + 2 * face * n;
@@ -1003,12 +1003,12 @@ double RowStresses::missed_traction(const unsigned int index, const unsigned int
   const StressEdge &edge = patches.edges()[number];
   double square = 0;
   for (const auto &[begin, end, components] : joint_parts(index, face))
-    for (const JointPiece &piece : master(index, face)->pieces)
+    for (const JointPiece &piece : cut_edge(index, face)->pieces)
       if (const double middle = (begin + end) / 2; piece.begin < middle && piece.end > middle)
         for (const auto &[s, weight] : joints->points(piece, begin, end, 2 * components[0].size()))
         {
-          const Tensor<1, 2> exact =
-              (face % 2 ? 1. : -1.) / edge.length * joints->density(piece, s);
+          const Tensor<1, 2> exact = ((face % 2 == 1) != piece.is_slave ? 1. : -1.) / edge.length *
+                                     joints->density(piece, s);
           for (unsigned int row = 0; row < 2; ++row)
           {
             const double missed =

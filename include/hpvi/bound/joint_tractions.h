@@ -78,6 +78,7 @@ struct JointEdge
   unsigned int face_no;
   bool is_slave;
   std::vector<JointPiece> pieces;
+  bool is_cut = false; ///< is tau another polynomial on each piece?
 };
 
 /** Points of Gauss through which a polynomial follows a smooth curve, or what is opposite to it. */
@@ -87,12 +88,21 @@ constexpr unsigned int n_of_curve = 24;
 double stiffness(const Solution<2> &solution,
                  const dealii::DoFHandler<2>::active_cell_iterator &cell);
 
-/** Those of all contacts: the slaves' by number of their face, then those of the masters. */
-std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space);
+/** u_N at s in [0,1] of an edge of a cell. */
+dealii::Tensor<1, 2> displacement_at(const Solution<2> &solution,
+                                     const dealii::DoFHandler<2>::active_cell_iterator &cell,
+                                     unsigned int face_no, double s);
+
+/**
+ * Those of all contacts: the slaves' by number of their face, then those of the masters. @p ends by face: where contact ends inside it, and a
+ * piece too; below 0: nowhere.
+ */
+std::vector<JointEdge> joint_edges(const ContactSpace<2> &contact_space,
+                                   const std::vector<double> &ends);
 
 /**
  * Tractions tau along all contacts that are polynomials on each edge of the slave and that the laws admit at every point: pressure
- * `pi >= 0` where contact is unilateral, friction `g l*`, |l*| <= 1, and any where a joint cannot open or slide. There tau has the mean
+ * `pi >= 0` where contact is unilateral, zero beyond the place where it ends inside an edge, friction `g l*`, |l*| <= 1, and any where a joint cannot open or slide. There tau has the mean
  * of z_N on each edge and is else nearest to the mean of both bodies' -sigma(u_N) n, weighted by the other's mu; along the normal it has
  * the moment of z_N on each straight side, too. Along motions v that no support resists it does the work of z_N: with a = sum a_i [v_i]
  * there is `pi (1 + a_n)` for pi, `l* + (1 - l*^2) a_t` for l*, and tau + a in a joint. Else tau need not be in balance with u_N: that is for u_N + x,
@@ -118,6 +128,8 @@ public:
   /** tau at s in [0,1] of the slave's face [stress]. */
   dealii::Tensor<1, 2> value(unsigned int face, double s) const;
 
+  bool presses(const JointPiece &piece) const; ///< at all points of the multiplier there
+
   double pressure(unsigned int face, double s) const; ///< its part along the normal
   double limit(unsigned int face, double s) const;    ///< what friction may be there
 
@@ -133,7 +145,9 @@ public:
   dealii::Vector<double> missing_forces() const;
 
 private:
-  std::array<EdgePolynomial, 2> wanted(unsigned int face) const;
+  double end_of_contact(unsigned int face) const;
+  void set_pressure_before_end(unsigned int face);
+  std::array<EdgePolynomial, 2> wanted(unsigned int face, double begin, double end) const;
   void balance_moments();
   void balance_motions();
   dealii::Vector<double> missing_work() const;
@@ -141,12 +155,14 @@ private:
 
   const Solution<2> &solution;
   const AdmissibleFriction<2> &friction;
+  std::vector<double> ends; ///< by face: where contact ends inside it, or -1
   std::vector<JointEdge> all;
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> by_cell;
-  std::vector<std::array<EdgePolynomial, 2>> parts; ///< by face, along normal and tangent
-  std::vector<RigidBodyMotion<2>> motions;          ///< that no support resists
-  std::optional<RigidBodyMotion<2>> added;          ///< a
-  double unit = 0;                                  ///< [stress]
+  std::vector<std::array<EdgePolynomial, 2>>
+      parts; ///< by face, along normal and tangent; the first by the share of what is pressed
+  std::vector<RigidBodyMotion<2>> motions; ///< that no support resists
+  std::optional<RigidBodyMotion<2>> added; ///< a
+  double unit = 0;                         ///< [stress]
 };
 } // namespace hpvi
 

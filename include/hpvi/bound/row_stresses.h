@@ -44,10 +44,10 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
-  /** |tau - Pi tau| on a master's face in a joint, zero on others. */
+  /** |tau - Pi tau| on a face on which tau has pieces, zero on others. */
   double missed_traction(unsigned int cell, unsigned int face) const;
 
-  /** What the slave exerts on a part of a master's face, towards growing reference coordinates: by x and y, from begin to end. */
+  /** What contact exerts on a part of such a face, towards growing reference coordinates: by x and y, from begin to end. */
   struct JointPart
   {
     double begin, end;
@@ -101,7 +101,7 @@ private:
   void cut(unsigned int cell);
   static bool is_whole(const Part &part);
   bool is_on(const Part &part, unsigned int face) const;
-  const JointEdge *master(unsigned int cell, unsigned int face) const;
+  const JointEdge *cut_edge(unsigned int cell, unsigned int face) const;
   EquilibrationCache::Signature key(const Part &part) const;
   RowShape shape_of(const Part &part) const;
   Hat hat(const Part &part, unsigned int v, const dealii::Point<2> &at) const;
