@@ -19,7 +19,6 @@ import shutil
 import subprocess
 import sys
 
-import messages
 import rooms
 import scenes
 from scenes import assignments
@@ -360,12 +359,11 @@ def main():
     pages = program_pages(reading_order())
     pages["entries"] = entries_page(program)
     for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "drawings", "pairs", "space", "processes", "probes", "paraview",
-                 "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns"):
+                 "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns", "messages"):
         pages[name] = with_results(linked((PAGES / f"{name}.md").read_text(), PAGES), program, output / "runs")
     for name in OF_REPOSITORY:
         pages[pathlib.Path(name).stem.lower()] = of_repository(name)
     pages["nouns"] = rooms.nouns()
-    pages["messages"] = messages.page()
     pages["scenes"] = scenes.page("gallery/", " {#scenes}")
     pages["python"] = session((ROOT / "doc/python.md").read_text())
     pages["tutorial"] = "# A small program to start from {#tutorial}\n\n" + \
