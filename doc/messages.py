@@ -87,7 +87,7 @@ def complaints():
     for row in re.findall(r"^<tr>.*", page[refused:names], re.M):
         if "<b>" not in row:
             found.append(f"doc/manual/messages.md: no remedy in \"{plain(row).strip()}\"; write it behind a semicolon")
-    for quoted, prose in re.findall(r"^### .*\n\n((?:>.*\n)+)\n*(.*(?:\n(?!#).*)*)", page, re.M):
+    for quoted, prose in re.findall(r"^### .*\n\n((?:>.*\n)+)\n*((?:(?!#).*\n)*)", page, re.M):
         if len(prose.split()) < 6:
             found.append(f"{quoted.strip()}: doc/manual/messages.md says no cause of it")
         if not all(";" in line for line in quoted.splitlines() if line != ">") and "**Remedy:**" not in prose:
