@@ -68,16 +68,23 @@ check() {
   [ -z "$(ls -A)" ] || complain "$row" "files were written: $(ls -A)"
 }
 
-invalid() {
-  local words=("$base") arguments=()
+# Its arguments up to "--" are words, what follows is the rest.
+words_of() {
+  words=()
   while [ "$1" != "--" ]; do
     words+=("$1")
     shift
   done
-  shift
-  for override in "$@"; do
+  rest=("${@:2}")
+}
+
+invalid() {
+  local words arguments=()
+  words_of "$@"
+  for override in "${rest[@]}"; do
     arguments+=(--set "$override")
   done
+  words+=("$base")
   check words --validate "$scenes/$base" "${arguments[@]}"
 }
 
@@ -89,11 +96,7 @@ broken() {
 }
 
 refused() {
-  local words=()
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
-  check words "$@"
+  local words
+  words_of "$@"
+  check words "${rest[@]}"
 }

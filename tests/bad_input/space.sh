@@ -8,13 +8,9 @@ cd "$root" || exit 2
 
 # check STATUS WORDS... -- COMMAND...: the command ends with the status and one line that has all words.
 check() {
-  local status=$1 words=() word
-  shift
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
+  local status=$1 words word
+  words_of "${@:2}"
+  set -- "${rest[@]}"
   local got
   if [ "$1" = "$hpvi" ]; then
     run_hpvi "${@:2}"
@@ -33,19 +29,11 @@ check() {
 
 # overridden STATUS COMMAND... -- WORD... -- ENTRY=VALUE...: that command with these entries overridden.
 overridden() {
-  local status=$1 command=() words=() override
-  shift
-  while [ "$1" != "--" ]; do
-    command+=("$1")
-    shift
-  done
-  shift
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
-  for override in "$@"; do
+  local status=$1 command words override
+  words_of "${@:2}"
+  command=("${words[@]}")
+  words_of "${rest[@]}"
+  for override in "${rest[@]}"; do
     command+=(--set "$override")
   done
   check "$status" "${words[@]}" -- "${command[@]}"
@@ -103,12 +91,9 @@ invalid "Exact solution" "unknown subsection" "no closed form" -- "Exact solutio
 
 # --- hexahedra from a file
 foot() {
-  local words=()
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
+  local words
+  words_of "$@"
+  set -- "${rest[@]}"
   cp prm/foot.prm "$scratch/foot.prm"
   mkdir -p "$scratch/meshes"
   sed "$1" prm/meshes/foot.msh >"$scratch/meshes/foot.msh"
@@ -185,12 +170,9 @@ check 2 "4328691 unknowns needs 249 GB" "are left" "Maximum unknowns" -- limited
 
 # --- the primal path in the plane
 plane() {
-  local words=()
-  while [ "$1" != "--" ]; do
-    words+=("$1")
-    shift
-  done
-  shift
+  local words
+  words_of "$@"
+  set -- "${rest[@]}"
   check 1 "${words[@]}" -- "$hpvi" --output "$scratch/o" prm/"$1".prm --set Solver/Path=primal
 }
 plane "Method = hpa2" "the primal path does not offer" -- han-6-12

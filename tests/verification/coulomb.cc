@@ -1,90 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Coulomb friction against closed forms, a published benchmark, statics and its own conditions.
+// Coulomb friction against a published benchmark, statics and its own conditions.
 #include "coulomb_law.h"
-#include <hpvi/reader/closed_forms/hertz.h>
-#include <hpvi/reader/closed_forms/partial_slip.h>
-#include <hpvi/reader/closed_forms/stick_slip.h>
 
 #include <hpvi/results/solution_field.h>
 
 namespace
 {
 using namespace verification;
-
-void expect_exponential(const std::vector<double> &energies, const double exact, const double last)
-{
-  EXPECT_LE(std::abs(energies.back() - exact), last * exact);
-  EXPECT_LE(std::abs(energies.back() - exact), 1e-4 * std::abs(energies.front() - exact));
-}
-
-// ---------------------------------------------------------------- closed forms
-
-/** Friction -f p everywhere under Hertz's pressure p, which a gap that is not symmetric leaves as it was. */
-TEST(CoulombFriction, SlipsUnderHertzPressure)
-{
-  const double f = 0.3, a = 0.7, p_0 = 7, U = 0.03;
-  Scene<2> scene;
-  scene.geometry.corners = box_corners<2>({-2, 0}, {2, 2});
-  scene.geometry.subdivisions = {{4, 2}};
-  scene.materials = {{200, 0.3, PlaneModel::strain}};
-  const Material &material = scene.materials[0];
-  const auto hertz = std::make_shared<Hertz>(material, p_0, a, 0.);
-  // Without a stick zone: one of 1e-7 a differs by less than round-off.
-  const auto friction = std::make_shared<PartialSlip>(material, f * p_0, a, 1e-7 * a, 0.);
-  prescribe(scene, [=](const Point<2> &x)
-            { return hertz->displacement(x) + friction->displacement(x) + Point<2>(U, 0); });
-  BoundaryCondition<2> &bottom = scene.boundary("bottom");
-  bottom.contact = Contact::unilateral;
-  bottom.friction.coefficient = expression<2>(f);
-  const double k = p_0 / a, mu = material.mu(), kappa = material.kolosov(),
-               R = 200 / (2 * (1 - 0.09) * k);
-  bottom.gap = expression<2>(
-      [=](const Point<2> &x)
-      {
-        const double s = x[0], inside = s * std::sqrt(std::max(0., a * a - s * s)) / 2 +
-                                        a * a / 2 * std::asin(std::clamp(s / a, -1., 1.));
-        return s * s / (2 * R) + f * (kappa - 1) * k / (4 * mu) * inside;
-      });
-  scene.adaptivity.maximum_steps = 18;
-  const Outcome outcome = run(scene);
-  expect_exponential(outcome.elastic_energy, 0.149120752172, 1e-9);
-  const double P = 7.6969020013;
-  EXPECT_NEAR(outcome.contact.normal_resultant, -P, 1e-7 * P);
-  EXPECT_NEAR(outcome.contact.friction_resultant, -f * P, 1e-7 * P);
-  ASSERT_EQ(outcome.contact.zones.size(), 3u);
-  EXPECT_EQ(outcome.contact.zones[1].mode, ContactMode::slip);
-  EXPECT_NEAR(outcome.contact.zones[1].begin[0], -a, 1e-3 * a);
-  EXPECT_NEAR(outcome.contact.zones[1].end[0], a, 1e-3 * a);
-}
-
-/** The stick-slip field with a uniform pressure q: f = g/p(x) makes Coulomb's bound the constant g. */
-TEST(CoulombFriction, SticksAndSlipsWithAVariableCoefficient)
-{
-  const double g = 0.3, q = 1;
-  for (const Contact contact : {Contact::unilateral, Contact::bilateral})
-  {
-    Scene<2> scene;
-    scene.geometry.corners = box_corners<2>({-1, 0}, {1, 1});
-    scene.geometry.subdivisions = {{4, 2}};
-    scene.materials = {{1, 0.3, PlaneModel::stress}};
-    const Material &material = scene.materials[0];
-    const auto field = std::make_shared<StickSlip>(material, g, 0., 1.);
-    const double stiffness = material.lambda(2) + 2 * material.mu(), kappa = material.kolosov(),
-                 A = g / (1.5 * (1 + kappa));
-    prescribe(scene, [=](const Point<2> &x)
-              { return field->displacement(x) - Point<2>(0, q * x[1] / stiffness); });
-    BoundaryCondition<2> &bottom = scene.boundary("bottom");
-    bottom.contact = contact;
-    bottom.friction.coefficient =
-        expression<2>([=](const Point<2> &x)
-                      { return g / (q - 1.5 * (kappa - 1) * A * std::sqrt(std::max(0., -x[0]))); });
-    scene.adaptivity.maximum_steps = 20;
-    const Outcome outcome = run(scene);
-    expect_exponential(outcome.elastic_energy, 0.928311113728, 1e-8);
-    ASSERT_EQ(outcome.contact.transitions.size(), 1u);
-    EXPECT_NEAR(outcome.contact.transitions[0][0], 0, 1e-4);
-  }
-}
 
 // ---------------------------------------------------------------- a published benchmark
 
@@ -179,7 +101,8 @@ TEST(CoulombFriction, HoldsAWedgeUpToItsPush)
       scene.adaptivity.maximum_steps = 2;
       return scene;
     };
-    EXPECT_EQ(failure_of(scene(limit * (1 - 1e-10))), "") << f;
+    const ContactState<2> contact = run(scene(limit * (1 - 1e-10))).contact; // all points rub
+    EXPECT_NEAR(contact.friction_resultant, f * contact.normal_resultant, 1e-9);
     EXPECT_NE(failure_of(scene(limit * (1 + 1e-10))).find("no equilibrium"), std::string::npos)
         << f;
     EXPECT_NEAR(run(scene(0.9 * limit)).contact.normal_resultant,

@@ -152,6 +152,44 @@ Outcome adapt(Scene<2> scene, const Method method, const unsigned int steps)
   return verification::run(scene);
 }
 
+// ---------------------------------------------------------------- closed forms
+
+void expect_exponential(const std::vector<double> &energies, const double exact, const double last)
+{
+  EXPECT_LE(std::abs(energies.back() - exact), last * exact);
+  EXPECT_LE(std::abs(energies.back() - exact), 1e-4 * std::abs(energies.front() - exact));
+}
+
+/** Friction -f p everywhere under Hertz's pressure p, which a gap that is not symmetric leaves as it was. */
+TEST(CoulombFriction, SlipsUnderHertzPressure)
+{
+  Scene<2> scene = sliding_hertz();
+  scene.adaptivity.maximum_steps = 18;
+  const Outcome outcome = run(scene);
+  expect_exponential(outcome.elastic_energy, 0.149120752172, 1e-9);
+  const double P = 7.6969020013, a = SlidingHertz::a;
+  EXPECT_NEAR(outcome.contact.normal_resultant, -P, 1e-7 * P);
+  EXPECT_NEAR(outcome.contact.friction_resultant, -0.3 * P, 1e-7 * P);
+  ASSERT_EQ(outcome.contact.zones.size(), 3u);
+  EXPECT_EQ(outcome.contact.zones[1].mode, ContactMode::slip);
+  EXPECT_NEAR(outcome.contact.zones[1].begin[0], -a, 1e-3 * a);
+  EXPECT_NEAR(outcome.contact.zones[1].end[0], a, 1e-3 * a);
+}
+
+/** The stick-slip field with a uniform pressure q: f = g/p(x) makes Coulomb's bound the constant g. */
+TEST(CoulombFriction, SticksAndSlipsWithAVariableCoefficient)
+{
+  for (const Contact contact : {Contact::unilateral, Contact::bilateral})
+  {
+    Scene<2> scene = pressed_stick_slip(contact);
+    scene.adaptivity.maximum_steps = 20;
+    const Outcome outcome = run(scene);
+    expect_exponential(outcome.elastic_energy, 0.928311113728, 1e-8);
+    ASSERT_EQ(outcome.contact.transitions.size(), 1u);
+    EXPECT_NEAR(outcome.contact.transitions[0][0], 0, 1e-4);
+  }
+}
+
 // ---------------------------------------------------------------- true errors and the indicator
 
 /** Over degrees, meshes and both, the indicator is between half of the error and a few of it. */
@@ -277,28 +315,6 @@ TEST(CoulombProofs, PatchOnATiltedFloorIsExact)
     EXPECT_NEAR(point.tangential_traction, 0, 1e-10 * p);
   }
   expect_coulomb(solution);
-}
-
-/** A block pressed by N and pushed along the plane: it stays up to the push f N, where all points rub. */
-TEST(CoulombProofs, BlockSlidesAtItsLimit)
-{
-  const double f = 0.3, N = 2;
-  const auto scene = [&](const double push)
-  {
-    Scene<2> scene;
-    scene.geometry.corners = box_corners<2>({0, 0}, {2, 0.5});
-    scene.geometry.subdivisions = {{4, 1}};
-    scene.materials = {{1000, 0.3, PlaneModel::strain}};
-    scene.boundary("top").traction = {{expression<2>(push / 2), expression<2>(-N / 2)}};
-    scene.boundary("bottom").contact = Contact::unilateral;
-    scene.boundary("bottom").friction.coefficient = expression<2>(f);
-    scene.adaptivity.maximum_steps = 2;
-    return scene;
-  };
-  EXPECT_NE(failure_of(scene(f * N * (1 + 1e-10))).find("no equilibrium"), std::string::npos);
-  const ContactState<2> contact = run(scene(f * N * (1 - 1e-10))).contact;
-  EXPECT_NEAR(contact.friction_resultant, -f * N, 1e-9);
-  EXPECT_NEAR(contact.friction_resultant, f * contact.normal_resultant, 1e-9);
 }
 
 // ---------------------------------------------------------------- scenes

@@ -76,6 +76,41 @@ void last_step(const Scene<dim> &scene, const std::function<void(const StepRepor
                  });
 }
 
+/**
+ * The energy of a finer run, of @p steps with hpa3, lies in the interval of each step of @p methods; the bound is above the error, by at
+ * most @p nearness times, or, for 0, nobody asks; @p heard gets the step and this error.
+ */
+inline void
+expect_bounds(const std::function<Scene<2>(const std::string &method, unsigned int steps)> &scene,
+              const unsigned int steps, const std::vector<std::string> &methods,
+              const double nearness,
+              const std::function<void(const StepReport<2> &, double error)> &heard)
+{
+  double J = 0, doubt = 0;
+  each_step<2>(scene("hpa3", steps),
+               [&](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 J = step.energies.energy;
+                 doubt = step.bound->energy_below + step.bound->energy_above;
+               });
+  for (const std::string &method : methods)
+    each_step<2>(scene(method, 3),
+                 [&](const StepReport<2> &step)
+                 {
+                   SCOPED_TRACE(method);
+                   ASSERT_TRUE(step.bound) << step.no_bound;
+                   EXPECT_LE(step.energies.energy - step.bound->energy_below, J + doubt);
+                   EXPECT_GE(step.energies.energy + step.bound->energy_above, J - doubt);
+                   if (nearness == 0)
+                     return;
+                   const double error = std::sqrt(2 * std::max(0., step.energies.energy - J));
+                   EXPECT_GE(step.bound->total, 0.999 * error);
+                   EXPECT_LE(step.bound->total, nearness * error + std::sqrt(2 * doubt));
+                   heard(step, error);
+                 });
+}
+
 /** Why @p scene has no solution; empty: it has one. */
 inline std::string failure_of(const Scene<2> &scene)
 {

@@ -367,13 +367,20 @@ TEST(UnresolvedLoads, AreWarnedOfMarkedAndLeaveNoBound)
   EXPECT_LT(smallest, 10.);
 }
 
-TEST(UnresolvedLoads, DoNotEndARunAsExact)
+/** A square under a load of 2 on a fiftieth of its top. */
+Scene<2> narrowly_loaded(const unsigned int steps)
 {
   Scene<2> scene = body({1., 1.}, {{1, 1}});
   hold(scene, "bottom");
   scene.boundary("top").traction[1] =
       expression<2>([](const Point<2> &x) { return std::abs(x[0] - 0.371) < 0.01 ? -100. : 0.; });
-  scene.adaptivity.maximum_steps = 2;
+  scene.adaptivity.maximum_steps = steps;
+  return scene;
+}
+
+TEST(UnresolvedLoads, DoNotEndARunAsExact)
+{
+  const Scene<2> scene = narrowly_loaded(2);
   run(scene,
       [&](const StepReport<2> &step)
       {
@@ -387,11 +394,7 @@ TEST(UnresolvedLoads, DoNotEndARunAsExact)
 
 TEST(BoundUnderJumps, IntegratesTheSquareOfALoadByItsRule)
 {
-  Scene<2> scene = body({1., 1.}, {{1, 1}});
-  hold(scene, "bottom");
-  scene.boundary("top").traction[1] =
-      expression<2>([](const Point<2> &x) { return std::abs(x[0] - 0.371) < 0.01 ? -100. : 0.; });
-  scene.adaptivity.maximum_steps = 1;
+  const Scene<2> scene = narrowly_loaded(1);
   run(scene,
       [&](const StepReport<2> &step)
       {
