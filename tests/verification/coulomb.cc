@@ -85,11 +85,11 @@ TEST(CoulombFriction, HoldsABlockUpToItsAngle)
 /** NAFEMS CGS-4: a wedge of slope tan a = 0.1 takes the push F = G (tan a + f)/(1 - f tan a) to move. */
 TEST(CoulombFriction, HoldsAWedgeUpToItsPush)
 {
-  const double slope = 0.1, weight = 3 * 0.5;
-  const Turned body{"wedge", {{{0, 0}, {3, 0}, {3, 0.5}, {0, 0.5}}}, std::atan(slope)};
-  for (const double f : {0.1, 0.2, 0.3})
+  const double weight = 3 * 0.5;
+  for (const auto &[slope, f] : {std::pair{0., 0.3}, {0.1, 0.1}, {0.1, 0.2}, {0.1, 0.3}})
   {
-    const double limit = (slope + f) / (1 - f * slope);
+    const Turned body{"wedge", {{{0, 0}, {3, 0}, {3, 0.5}, {0, 0.5}}}, std::atan(slope)};
+    const double limit = (slope + f) / (1 - f * slope), coefficient = f;
     const auto scene = [&](const double push)
     {
       Scene<2> scene;
@@ -97,7 +97,7 @@ TEST(CoulombFriction, HoldsAWedgeUpToItsPush)
       scene.materials = {{1000, 0.3, PlaneModel::strain}};
       scene.body_force = {{expression<2>(push), expression<2>(-1.)}};
       scene.boundary("bottom").contact = Contact::unilateral;
-      scene.boundary("bottom").friction.coefficient = expression<2>(f);
+      scene.boundary("bottom").friction.coefficient = expression<2>(coefficient);
       scene.adaptivity.maximum_steps = 2;
       return scene;
     };
