@@ -37,6 +37,8 @@ EXAMPLES = {
     ("Boundary NAME", "Contact direction"): "0.1; -1",
     ("Body NAME", "Surfaces"): "liner, shell", ("Contact NAME", "Friction law"): "limited",
     ("Contact NAME", "Gap"): "0.1*x^2", ("Contact NAME", "Closed within"): "0.001", ("Contact NAME", "Friction coefficient"): "0.3", ("Contact NAME", "Slave"): "lower.top",
+    ("Boundary NAME", "Wear coefficient"): "1e-9", ("Contact NAME", "Wear coefficient"): "1e-9",
+    ("Loading", "Until steady"): "0.01", ("Loading", "Maximum cycles"): "50",
     ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
     ("Material", "Elasticity"): "orthotropic", ("Material", "Young's moduli"): "11000, 500, 700",
     ("Material", "Poisson's ratios"): "0.4, 0.35, 0.4", ("Material", "Shear moduli"): "700",
@@ -180,6 +182,8 @@ def check_example(program, key, value):
     elif key[1] == "Moment":
         beside = {"Boundary bottom/Contact": "none", "Boundary bottom/Friction bound": "", "Boundary right/Displacement": "",
                   "Boundary left/Traction": "", "Boundary top/Displacement": "0; 0", "Boundary bottom/Rigid": "true"}
+    elif key[1] in ("Wear coefficient", "Until steady", "Maximum cycles"):
+        beside = {"Loading/Steps": "4", "Loading/Until steady": "0.01" if key[1] == "Maximum cycles" else ""}
     scene, name = ROOT / "prm/han-6-12.prm", "bottom"
     if key[1] in SHAPES and key[0] != "Material":
         scene, name = ROOT / f"tests/bad_input/{SHAPES[key[1]]}.prm", "inside"

@@ -57,6 +57,35 @@ void write_marks(std::ostream &out, const MeshMarks &marks)
   out << '\n';
 }
 
+/** What lasts from load step to load step. */
+void write_history(std::ostream &out, const HistorySoFar &history)
+{
+  out << "contact " << history.contact.size() << '\n';
+  for (ContactHistory contact : history.contact)
+  {
+    out << contact.boundary << ' ' << contact.points.size() << '\n';
+    for (PointHistory &point : contact.points)
+    {
+      for (const double coordinate : point.x)
+        out << text(coordinate) << ' ';
+      for (const double *const number : point.numbers())
+        out << text(*number) << ' ';
+      out << '\n';
+    }
+  }
+  out << "cycles " << history.cycles.size() << '\n';
+  for (const LoadCycle &cycle : history.cycles)
+    out << cycle.load_step << ' ' << text(cycle.work) << ' ' << text(cycle.dissipated) << ' '
+        << text(cycle.change) << '\n';
+  for (const HistoryLargest &one : {history.pressure, history.von_mises, history.opening})
+  {
+    out << "largest " << text(one.value) << ' ';
+    for (const double coordinate : one.where)
+      out << text(coordinate) << ' ';
+    out << one.boundary << ' ' << one.load_step << ' ' << text(one.t) << '\n';
+  }
+}
+
 /** All zero: there is no history of loads. */
 void write_loads(std::ostream &out, const FinishedLoads &loads)
 {
@@ -69,6 +98,7 @@ void write_loads(std::ostream &out, const FinishedLoads &loads)
   for (const Warning &warning : loads.warnings)
     out << static_cast<unsigned int>(warning.kind) << ' ' << text(warning.size) << '\n'
         << warning.text << '\n';
+  write_history(out, loads.so_far);
 }
 
 /** How many, then boundary, value, place and length of each. */
@@ -98,7 +128,7 @@ void write_claims(std::ostream &out, const Claims &claims, const std::string &co
 
 const FileFormat &run_state_format()
 {
-  static const FileFormat format("run state", 8,
+  static const FileFormat format("run state", 9,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -207,6 +237,45 @@ public:
       const auto kind = static_cast<WarningKind>(number<unsigned int>());
       const double size = number<double>();
       result.warnings.push_back({kind, size, lines(1).front()});
+    }
+    result.so_far = history();
+    return result;
+  }
+
+  HistorySoFar history()
+  {
+    HistorySoFar result;
+    expect("contact");
+    result.contact.resize(number<unsigned int>());
+    for (ContactHistory &contact : result.contact)
+    {
+      contact.boundary = number<unsigned int>();
+      contact.points.resize(number<unsigned int>());
+      for (PointHistory &point : contact.points)
+      {
+        for (double &coordinate : point.x)
+          coordinate = number<double>();
+        for (double *const value : point.numbers())
+          *value = number<double>();
+      }
+    }
+    expect("cycles");
+    result.cycles.resize(number<unsigned int>());
+    for (LoadCycle &cycle : result.cycles)
+    {
+      cycle.load_step = number<unsigned int>();
+      for (double *const value : {&cycle.work, &cycle.dissipated, &cycle.change})
+        *value = number<double>();
+    }
+    for (HistoryLargest *const one : {&result.pressure, &result.von_mises, &result.opening})
+    {
+      expect("largest");
+      one->value = number<double>();
+      for (double &coordinate : one->where)
+        coordinate = number<double>();
+      one->boundary = number<unsigned int>();
+      one->load_step = number<unsigned int>();
+      one->t = number<double>();
     }
     return result;
   }

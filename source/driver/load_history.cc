@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -68,6 +69,9 @@ struct LoadHistory<dim>::Evolution
   PastSlip<dim> slip_so_far() const;
   void count(const Work &done);
   void count_work(const ReducedPart<dim> &part);
+  void count_largest(const StepReport<dim> &report);
+  void count_cycle();
+  bool is_over() const;
   std::string place() const;
 };
 
@@ -105,7 +109,7 @@ void LoadHistory<dim>::Evolution::go_on_after(const RunState<dim> &state)
 {
   finished = *state.loads;
   const unsigned int number = finished.load.number;
-  if (number >= scene.loading.steps)
+  if (is_over())
     RunState<dim>::format().reject(state.name, "there is nothing to go on with after load step " +
                                                    std::to_string(number) + ", the last one");
   check(scene);
@@ -123,6 +127,7 @@ void LoadHistory<dim>::Evolution::begin(const unsigned int number)
 {
   finished.load.number = number;
   finished.load.t = scene.loading.time(number);
+  finished.load.cycle = scene.loading.cycle(number);
   has_ended = false;
   finished.past_data = current ? data_scale(*current) : DataScale();
   const auto next = std::make_shared<Scene<dim>>(load_step(scene, number, finished.past_data));
@@ -197,10 +202,12 @@ void LoadHistory<dim>::Evolution::add_warnings(StepReport<dim> &report) const
   if (report.stopped_by.stop != Stop::round_off)
     report.warnings = joined(report.warnings, load_step_warnings(report.relative_estimate));
   const LoadStep &load = finished.load;
-  if (load.number == scene.loading.steps)
-    report.warnings =
-        joined(report.warnings, dissipation_warnings(load.dissipated, load.trapezoidal,
-                                                     std::abs(load.work) + load.stored));
+  if (load.is_last)
+    report.warnings = joined(
+        report.warnings,
+        dissipation_warnings(load.dissipated, load.trapezoidal, std::abs(load.work) + load.stored),
+        steady_warnings(finished.so_far.cycles.empty() ? 0. : finished.so_far.cycles.back().change,
+                        scene.loading.until_steady));
 }
 
 /** The last step of a load step: what the load step did, and what the next one starts from. */
@@ -213,7 +220,12 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
     count(report.primal->work_done());
   finished.slipped = std::max(finished.slipped, largest_slip(report));
   finished.load.stored = 0.5 * report.energies.norm * report.energies.norm + finished.initial_part;
+  count_largest(report);
+  add_load_step(*current, report.contact, 1. / scene.loading.steps, finished.so_far.contact);
+  count_cycle();
+  finished.load.is_last = is_over();
   report.load = finished.load;
+  report.history = finished.so_far;
   finished.n_steps = report.number;
   finished.seconds = report.seconds;
   report.stopped_by = reason(report.stopped_by.stop);
@@ -230,8 +242,70 @@ void LoadHistory<dim>::Evolution::conclude(StepReport<dim> &report)
                         report.warnings.end());
   add_warnings(report);
   keep_worst(finished.warnings, report.warnings, place());
-  if (finished.load.number == scene.loading.steps)
+  if (finished.load.is_last)
     report.warnings = finished.warnings;
+}
+
+/** Is there no load step after the one that has ended? */
+template <int dim>
+bool LoadHistory<dim>::Evolution::is_over() const
+{
+  const Loading<dim> &loading = scene.loading;
+  if (finished.load.number % loading.steps != 0)
+    return false;
+  const std::vector<LoadCycle> &cycles = finished.so_far.cycles;
+  return loading.until_steady == 0 || cycles.size() >= loading.maximum_cycles ||
+         (!cycles.empty() && cycles.back().change <= loading.until_steady);
+}
+
+/** At the end of a cycle, what it did. */
+template <int dim>
+void LoadHistory<dim>::Evolution::count_cycle()
+{
+  const LoadStep &load = finished.load;
+  if (load.cycle == 0 || load.number % scene.loading.steps != 0)
+    return;
+  LoadCycle cycle{load.number, load.work, load.dissipated, std::numeric_limits<double>::infinity()};
+  std::vector<LoadCycle> &cycles = finished.so_far.cycles;
+  for (const LoadCycle &before : cycles)
+  {
+    cycle.work -= before.work;
+    cycle.dissipated -= before.dissipated;
+  }
+  if (!cycles.empty())
+  {
+    const double larger = std::max(cycle.dissipated, cycles.back().dissipated);
+    cycle.change = larger <= 1e-12 * (std::abs(load.work) + load.stored)
+                       ? 0.
+                       : std::abs(cycle.dissipated - cycles.back().dissipated) / larger;
+  }
+  cycles.push_back(cycle);
+}
+
+/** Takes the place of @p largest where it is larger. */
+template <int dim>
+void LoadHistory<dim>::Evolution::count_largest(const StepReport<dim> &report)
+{
+  const auto compare = [&](HistoryLargest &largest, const double value, const Point<dim> &x,
+                           const unsigned int boundary)
+  {
+    if (!(value > largest.value))
+      return;
+    largest = {value, {}, boundary, finished.load.number, finished.load.t};
+    for (unsigned int d = 0; d < dim; ++d)
+      largest.where[d] = x[d];
+  };
+  HistorySoFar &so_far = finished.so_far;
+  for (const ContactState<dim> &state : report.contact)
+  {
+    compare(so_far.pressure, state.highest_pressure, state.highest_pressure_point, state.boundary);
+    if (scene.boundaries[state.boundary].is_unilateral())
+      for (const ContactPoint<dim> &point : state.points)
+        compare(so_far.opening, std::min(point.gap, -point.normal_jump), point.x, state.boundary);
+  }
+  for (const StressSample<dim> &stress : report.extrema)
+    if (stress.boundary == numbers::invalid_boundary_id)
+      compare(so_far.von_mises, stress.value, stress.where, stress.boundary);
 }
 
 template <int dim>
@@ -337,10 +411,9 @@ void LoadHistory<dim>::run(const std::function<void(const StepReport<dim> &)> &f
     for (;;)
     {
       evolution->solver->run(take, announce);
-      const unsigned int number = evolution->finished.load.number;
-      if (number == evolution->scene.loading.steps)
+      if (evolution->is_over())
         return;
-      evolution->begin(number + 1);
+      evolution->begin(evolution->finished.load.number + 1);
     }
   }
   catch (const MemoryFailure &failure)

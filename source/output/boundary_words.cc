@@ -45,6 +45,16 @@ bool all_zero(const std::vector<double> &values)
   return std::all_of(values.begin(), values.end(), [](const double value) { return value == 0; });
 }
 
+namespace
+{
+/** 1 over a unit. */
+std::string per(const std::string &unit)
+{
+  const std::string name = unit_name(unit);
+  return name.empty() ? "" : name.find('/') == std::string::npos ? "1/" + name : "1/(" + name + ")";
+}
+} // namespace
+
 std::string with_unit(const double value, const std::string &unit, const int digits)
 {
   const std::string name = unit_name(unit);
@@ -292,6 +302,9 @@ std::vector<std::string> contact_phrases(const Scene<dim> &scene,
   }
   phrases.push_back(boundary.friction ? friction_in_words(scene, boundary.friction, points)
                                       : "no friction");
+  if (boundary.wear > 0)
+    phrases.push_back("wear coefficient " +
+                      with_unit(boundary.wear, per(scene.stress_unit), shown_digits));
   return phrases;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/output/contact_line.h>
+#include <hpvi/output/contact_table.h>
 #include <hpvi/output/vtk_file.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -154,11 +155,45 @@ private:
       multiplier, weight;
   std::vector<int> modes, boundaries;
 };
+
+/** A column of contact-history.csv each; what stays empty is left out. */
+template <int dim>
+std::vector<VtkArray> history_arrays(const Scene<dim> &scene,
+                                     const std::vector<ContactState<dim>> &contact,
+                                     const std::vector<ContactHistory> &history)
+{
+  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  bool has_wear = false;
+  for (const ContactState<dim> &state : contact)
+    for (const ContactHistory &own : history)
+    {
+      if (own.boundary != state.boundary || own.points.size() != state.points.size())
+        continue;
+      const double wear = scene.boundaries[state.boundary].wear;
+      has_wear = has_wear || wear > 0;
+      for (const PointHistory &point : own.points)
+      {
+        const Record record = history_record(point, wear);
+        columns.resize(record.size());
+        for (std::size_t k = 0; k < record.size(); ++k)
+        {
+          columns[k].first = record[k].first;
+          columns[k].second.push_back(
+              number(record[k].second).value_or(std::numeric_limits<double>::quiet_NaN()));
+        }
+      }
+    }
+  std::vector<VtkArray> arrays;
+  for (const auto &[name, values] : columns)
+    if (has_wear || name != "wear_depth")
+      arrays.push_back(vtk_array(name, values));
+  return arrays;
+}
 } // namespace
 
 template <int dim>
 std::string contact_line(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                         const unsigned int step)
+                         const unsigned int step, const std::vector<ContactHistory> &history)
 {
   VtkGrid grid(step);
   Columns<dim> columns(scene);
@@ -189,11 +224,13 @@ std::string contact_line(const Scene<dim> &scene, const std::vector<ContactState
   grid.point_data = columns.arrays();
   if (dim == 2)
     grid.point_data.push_back(vtk_array("arc_length", lengths, 1, scene.length_unit));
+  for (const VtkArray &array : history_arrays(scene, contact, history))
+    grid.point_data.push_back(array);
   return grid.vtu();
 }
 
 template std::string contact_line(const Scene<2> &, const std::vector<ContactState<2>> &,
-                                  unsigned int);
+                                  unsigned int, const std::vector<ContactHistory> &);
 template std::string contact_line(const Scene<3> &, const std::vector<ContactState<3>> &,
-                                  unsigned int);
+                                  unsigned int, const std::vector<ContactHistory> &);
 } // namespace hpvi

@@ -69,6 +69,47 @@ std::vector<Record> contact_rows(const Scene<dim> &scene,
   return rows;
 }
 
+Record history_record(const PointHistory &point, const double wear)
+{
+  const double range = point.slip_range();
+  return {{"pressure_max", point.pressure},
+          {"shear_max", point.shear},
+          {"slip_range", range},
+          {"slip_path", point.path},
+          {"dissipated", point.dissipated},
+          {"time_open", point.open},
+          {"ruiz_1", point.shear * range},
+          {"ruiz_2", point.tension * point.shear * range},
+          {"wear_depth", wear > 0 ? Value(wear * point.rubbed) : Value()}};
+}
+
+template <int dim>
+std::vector<Record> contact_history_rows(const Scene<dim> &scene,
+                                         const std::vector<ContactHistory> &contact)
+{
+  std::vector<Record> rows;
+  for (const ContactHistory &history : contact)
+  {
+    const BoundaryCondition<dim> &boundary = scene.boundaries[history.boundary];
+    for (const PointHistory &point : history.points)
+    {
+      Record &row = rows.emplace_back(Record{
+          {"boundary", boundary.pair ? scene.boundaries[boundary.side].name : boundary.name}});
+      for (unsigned int d = 0; d < dim; ++d)
+        row.emplace_back(std::string(1, "xyz"[d]), point.x[d]);
+      const Record numbers = history_record(point, boundary.wear);
+      row.insert(row.end(), numbers.begin(), numbers.end());
+      if (scene.has_pairs())
+        row.emplace_back("contact", boundary.pair ? scene.pairs[*boundary.pair].name : "");
+    }
+  }
+  return rows;
+}
+
+template std::vector<Record> contact_history_rows(const Scene<2> &,
+                                                  const std::vector<ContactHistory> &);
+template std::vector<Record> contact_history_rows(const Scene<3> &,
+                                                  const std::vector<ContactHistory> &);
 template std::vector<Record> contact_rows(const Scene<2> &, const std::vector<ContactState<2>> &);
 template std::vector<Record> contact_rows(const Scene<3> &, const std::vector<ContactState<3>> &);
 } // namespace hpvi

@@ -72,7 +72,7 @@ step_files(const Scene<dim> &scene, const StepReport<dim> &step, const unsigned 
     if (output.mesh_picture && n_processes == 1)
       add("mesh", ".svg", mesh_picture(step));
   if (output.vtu && scene.has_contact())
-    add("contact", ".vtu", contact_line(scene, step.contact, step.number));
+    add("contact", ".vtu", contact_line(scene, step.contact, step.number, step.history.contact));
   if (output.vtu && n_processes == 1)
     add("solution", ".vtu", vtu(step, {""}).piece);
   return files;
@@ -340,7 +340,8 @@ void Output<dim>::add_to_collections(const StepReport<dim> &step)
     GrowingText &pvd = collections[name];
     if (scene.output.steps == OutputSteps::last && !is_history)
       pvd = {};
-    add_to_pvd(pvd, is_history ? step.load.t : step.number, file);
+    add_to_pvd(pvd, is_history ? std::max(1U, step.load.cycle) - 1 + step.load.t : step.number,
+               file);
     announce({name});
     update(name, pvd);
   }
@@ -361,6 +362,23 @@ void Output<dim>::write_reference(const StepReport<dim> &step)
                  });
 }
 
+/** What the load steps so far have done together: whole files, which each load step makes anew. */
+template <int dim>
+void Output<dim>::write_history(const StepReport<dim> &step)
+{
+  std::vector<std::pair<std::string, std::string>> files;
+  if (scene.output.contact && scene.has_contact())
+    files.emplace_back("contact-history.csv",
+                       csv(contact_history_rows(scene, step.history.contact)));
+  if (!step.history.cycles.empty())
+    files.emplace_back("cycles.csv", csv(cycle_rows(step.history.cycles)));
+  for (const auto &[name, content] : files)
+  {
+    announce({name});
+    write(name, content);
+  }
+}
+
 /** Last: the tables name no step whose files are missing. */
 template <int dim>
 void Output<dim>::write_tables(const StepReport<dim> &step,
@@ -375,6 +393,7 @@ void Output<dim>::write_tables(const StepReport<dim> &step,
   {
     announce({"loading.csv"});
     update("loading.csv", tables.loading);
+    write_history(step);
   }
   summary.add(step, tables.convergence.last);
   if (state)
@@ -382,7 +401,7 @@ void Output<dim>::write_tables(const StepReport<dim> &step,
     std::ostringstream content;
     state->write(content);
     last_state = content.str();
-    if (!is_last || step.load.number < scene.loading.steps)
+    if (!is_last || (scene.has_load_history() && !step.load.is_last))
       write_state();
   }
   for (const std::string &name : superseded)

@@ -197,8 +197,8 @@ std::string scene_part(const Scene<dim> &scene, const Scene<dim> &last)
 {
   const std::string history =
       scene.has_load_history()
-          ? element("p", "A load history of " + text(scene.loading.steps) +
-                             " load steps; what follows and the picture are at its end, t = 1.") +
+          ? element("p", "A load history of " + history_in_words(scene.loading) +
+                             "; what follows and the picture are at its end, t = 1.") +
                 "\n"
           : "";
   return pair(history + tried([&]() { return paragraphs(scene_in_words(last)); },

@@ -290,15 +290,80 @@ std::string loop(const Scene<dim> &scene, const RunFiles &files, const std::stri
                                  "; the area of a loop is what a cycle takes.");
 }
 
+/** Columns of contact-history.csv over the arc length of one contact; nothing where all are zero. */
+std::string history_plot(const RunFiles &files, const ContactRows &contact,
+                         const std::string &label,
+                         const std::vector<std::pair<std::string, std::string>> &columns,
+                         const std::string &length_unit)
+{
+  const std::vector<double> lengths = arc_lengths(contact.rows, begin_of(files.summary, contact));
+  const std::array<const char *, 2> colours{{black, orange}}, dashes{{"", "6 3"}};
+  Chart chart;
+  chart.title = legible(contact.title());
+  chart.x_label = with_unit_of("arc length", length_unit);
+  chart.y_label = label;
+  bool has_any = false;
+  for (const auto &[column, words] : columns)
+  {
+    ChartLine line{words, colours[chart.lines.size()], dashes[chart.lines.size()], false, {}};
+    for (std::size_t k = 0; k < contact.rows.size(); ++k)
+    {
+      line.points.push_back({{lengths[k], field(contact.rows[k], column)}});
+      has_any = has_any || line.points.back()[1] > 0;
+    }
+    chart.lines.push_back(line);
+  }
+  return has_any ? figure(chart.svg(), "Load history: over the arc length of contact " +
+                                           contact.title() + ", up to its end.")
+                 : "";
+}
+
+std::string history_plots(const Scene<3> &, const RunFiles &)
+{
+  return {};
+}
+
+/** Of as many contacts as one looks at. */
+std::string history_plots(const Scene<2> &scene, const RunFiles &files)
+{
+  constexpr unsigned int most = 2;
+  std::string charts;
+  unsigned int n = 0;
+  const std::string length = scene.length_unit, stress = scene.stress_unit;
+  for (const ContactRows &contact : by_contact(files.history))
+    if (++n <= most)
+      charts +=
+          (n > 1 ? ""
+                 : history_plot(files, contact, with_unit_of("largest traction", stress),
+                                {{"pressure_max", "pressure"}, {"shear_max", "shear"}}, length)) +
+          history_plot(files, contact, with_unit_of("slip", length),
+                       {{"slip_path", "path"}, {"slip_range", "range"}}, length) +
+          history_plot(files, contact, with_unit_of("wear depth", length), {{"wear_depth", ""}},
+                       length);
+  return charts;
+}
+
+std::string cycles_plot(const RunFiles &files, const std::string &unit)
+{
+  if (files.cycles.size() < 2)
+    return {};
+  Chart chart;
+  chart.x_label = "cycle";
+  chart.y_label = with_unit_of("dissipated energy", unit);
+  chart.lines = {line_of(files.cycles, "cycle", "dissipated_energy", {"", orange, "", true, {}})};
+  return figure(chart.svg(), "Load history: what friction dissipates in each cycle.");
+}
+
 std::string energies_plot(const RunFiles &files, const std::string &unit)
 {
   Chart chart;
-  chart.x_label = "t";
+  const std::string over = files.cycles.empty() ? "t" : "load_step"; // each cycle has the same t
+  chart.x_label = files.cycles.empty() ? "t" : "load step";
   chart.y_label = with_unit_of("energy", unit);
   for (const ChartLine &line :
-       {line_of(files.loads, "t", "work", {"work", black, "", false, {}}),
-        line_of(files.loads, "t", "stored_energy", {"stored", blue, "6 3", false, {}}),
-        line_of(files.loads, "t", "dissipated_energy", {"dissipated", orange, "2 2", true, {}})})
+       {line_of(files.loads, over, "work", {"work", black, "", false, {}}),
+        line_of(files.loads, over, "stored_energy", {"stored", blue, "6 3", false, {}}),
+        line_of(files.loads, over, "dissipated_energy", {"dissipated", orange, "2 2", true, {}})})
     chart.lines.push_back(line);
   return figure(chart.svg(), "Load history: work of the loads, and what became of it.");
 }
@@ -319,7 +384,9 @@ std::string loading_plots(const Scene<dim> &scene, const RunFiles &files)
         charts += chart;
         ++n_loops;
       }
-  return charts + energies_plot(files, moment_unit(scene.stress_unit, scene.length_unit));
+  return charts + history_plots(scene, files) +
+         cycles_plot(files, moment_unit(scene.stress_unit, scene.length_unit)) +
+         energies_plot(files, moment_unit(scene.stress_unit, scene.length_unit));
 }
 
 template std::string contact_plots(const Scene<2> &, const RunFiles &);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace hpvi
@@ -107,6 +108,34 @@ std::string loading_words(const JsonTree &summary, const std::string &energy)
                           of("released_energy") + ", unbalanced " + of("unbalanced_energy") + ".") +
          "\n";
 }
+
+/** As in "Largest at the ends of load steps: pressure 3.2 MPa at (1, 0) of bottom in load step 4, ...". */
+template <int dim>
+std::string largest_words(const Scene<dim> &scene, const JsonTree &summary)
+{
+  const JsonTree *const largest = member(summary, "history_largest");
+  if (!largest)
+    return {};
+  std::string words;
+  for (const auto &[name, what, unit] : {std::tuple{"pressure", "pressure", scene.stress_unit},
+                                         {"von_mises", "von Mises' stress", scene.stress_unit},
+                                         {"opening", "opening", scene.length_unit}})
+  {
+    const JsonTree *const one = member(*largest, name);
+    if (!one)
+      continue;
+    std::string place;
+    for (const auto &coordinate : one->get_child("at"))
+      place += (place.empty() ? "" : ", ") + shown(coordinate.second.data());
+    const std::string boundary = words_of(*one, "boundary");
+    words += (words.empty() ? "" : ", ") + std::string(what) + " " +
+             shown(words_of(*one, "value")) + bracketed(unit) + " at (" + place + ")" +
+             (boundary.empty() ? "" : " of " + boundary) + " in load step " +
+             words_of(*one, "load_step");
+  }
+  return words.empty() ? ""
+                       : element("p", "Largest at the ends of load steps: " + words + ".") + "\n";
+}
 } // namespace
 
 template <int dim>
@@ -123,7 +152,7 @@ std::string forces_words(const Scene<dim> &scene, const RunFiles &files)
     note += "; without an interval: " + why;
   return (files.forces.empty() ? "" : element("p", note + ".") + "\n") +
          html(forces_table(files.forces)) + balance_words(files.summary) +
-         loading_words(files.summary, moment);
+         loading_words(files.summary, moment) + largest_words(scene, files.summary);
 }
 
 namespace

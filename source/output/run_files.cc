@@ -117,6 +117,8 @@ RunFiles read_run(const std::string &directory, const std::string &summary, cons
     return files;
   }
   files.loads = records(content_of(home / "loading.csv"));
+  files.history = records(content_of(home / "contact-history.csv"));
+  files.cycles = records(content_of(home / "cycles.csv"));
   files.forces = records(content_of(home / "forces.csv"));
   const std::string last = words_of(files.steps.back(), "step");
   files.forces.erase(std::remove_if(files.forces.begin(), files.forces.end(),

@@ -316,6 +316,18 @@ std::string resultant_in_words(const Scene<dim> &scene, const bool is_primal)
 }
 
 template <int dim>
+std::string history_in_words(const Loading<dim> &loading)
+{
+  return text(loading.steps) + " load steps" +
+         (loading.until_steady == 0
+              ? ""
+              : ", repeated until the energy that friction dissipates in a cycle changes by less "
+                "than " +
+                    text(100 * loading.until_steady, shown_digits) + " %, at most " +
+                    text(loading.maximum_cycles) + " times");
+}
+
+template <int dim>
 std::string scene_in_words(const Scene<dim> &scene)
 {
   const Scene<dim> last = at_the_end(scene);
@@ -327,9 +339,9 @@ std::string scene_in_words(const Scene<dim> &scene)
   return (last.geometry.bodies.empty() ? body_in_words(last, mesh) : bodies_in_words(last, mesh)) +
          mesh_in_words(last) + remarks + bare_joints_in_words(last) +
          materials_in_words(last, mesh) +
-         (scene.has_load_history() ? "load history: " + text(scene.loading.steps) +
-                                         " load steps; what follows is at t = 1\n"
-                                   : "") +
+         (scene.has_load_history()
+              ? "load history: " + history_in_words(scene.loading) + "; what follows is at t = 1\n"
+              : "") +
          boundaries_in_words(last, mesh) + body_force_in_words(last, mesh) + probes_in_words(last) +
          resultant_in_words(last, takes_primal_path(scene, 1));
 }
@@ -341,6 +353,8 @@ template Scene<2> at_the_end(const Scene<2> &);
 template Scene<3> at_the_end(const Scene<3> &);
 template std::string name_in_words(const Scene<2> &, std::size_t);
 template std::string material_in_words(const Scene<2> &, const Material &);
+template std::string history_in_words(const Loading<2> &);
+template std::string history_in_words(const Loading<3> &);
 template std::string scene_in_words(const Scene<2> &);
 template std::string scene_in_words(const Scene<3> &);
 template std::string resultant_in_words(const Scene<2> &, bool);

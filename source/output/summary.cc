@@ -31,15 +31,42 @@ std::string loading_json(const LoadStep &load, const unsigned int n_load_steps)
 {
   if (n_load_steps == 0)
     return "null";
-  return json_object({{"load_steps", n_load_steps},
-                      {"finished", load.number},
-                      {"t", load.t},
-                      {"dissipated_energy", load.dissipated},
-                      {"work", load.work},
-                      {"stored_energy", load.stored},
-                      {"released_energy", load.released},
-                      {"unbalanced_energy", load.unbalanced},
-                      {"dissipated_energy_trapezoidal", load.trapezoidal}});
+  Record record{{"load_steps", n_load_steps},
+                {"finished", load.number},
+                {"t", load.t},
+                {"dissipated_energy", load.dissipated},
+                {"work", load.work},
+                {"stored_energy", load.stored},
+                {"released_energy", load.released},
+                {"unbalanced_energy", load.unbalanced},
+                {"dissipated_energy_trapezoidal", load.trapezoidal}};
+  if (load.cycle > 0)
+    record.emplace_back("cycle", load.cycle);
+  return json_object(record);
+}
+
+/** The largest of a history, in space of @p dim dimensions; null: there is none. */
+template <int dim>
+std::string largest_json(const Scene<dim> &scene, const HistoryLargest &largest)
+{
+  if (largest.load_step == 0)
+    return "null";
+  Point<dim> where;
+  for (unsigned int d = 0; d < dim; ++d)
+    where[d] = largest.where[d];
+  const bool is_contact = largest.boundary < scene.boundaries.size();
+  return "{\"value\": " + json_value(largest.value) + ", \"at\": " + json_point<dim>(where) +
+         ", \"boundary\": " +
+         json_value(is_contact ? scene.boundaries[largest.boundary].name : "") +
+         ", \"load_step\": " + text(largest.load_step) + ", \"t\": " + text(largest.t) + "}";
+}
+
+template <int dim>
+std::string history_json(const Scene<dim> &scene, const HistorySoFar &history)
+{
+  return "{\n    \"pressure\": " + largest_json(scene, history.pressure) +
+         ",\n    \"von_mises\": " + largest_json(scene, history.von_mises) +
+         ",\n    \"opening\": " + largest_json(scene, history.opening) + "\n  }";
 }
 
 /** The same without the factor of Coulomb's law, where there is no bound either. */
@@ -102,7 +129,8 @@ void Summary::take_up(const std::vector<Record> &rows, const Record &last_load)
           number("stored_energy"),
           number("released_energy"),
           number("unbalanced_energy"),
-          number("dissipated_energy_trapezoidal")};
+          number("dissipated_energy_trapezoidal"),
+          static_cast<unsigned int>(number("cycle"))};
 }
 
 template <int dim>
@@ -128,6 +156,8 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   if (stopped_by.empty())
     return;
   load = step.load;
+  if (load.number > 0)
+    ending.history_largest = history_json(step.scene, step.history);
   ending.error_bound = bound_json(row);
   ending.no_error_bound = json_value(step.bound ? "" : step.no_bound);
   ending.estimate = estimate_json(row);
@@ -192,6 +222,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
+  if (scene.has_load_history())
+    entries.emplace_back("history_largest", ending.history_largest);
   if (!contradiction.empty())
     entries.emplace_back("contradiction", json_string(contradiction));
   return json_file(entries);

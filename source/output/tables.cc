@@ -259,10 +259,24 @@ Record loading_record(const StepReport<dim> &step)
   const Record displacements = prescribed_displacements(step);
   record.insert(record.end(), displacements.begin(), displacements.end());
   record.emplace_back("dissipated_energy_trapezoidal", step.load.trapezoidal);
+  if (step.load.cycle > 0)
+    record.emplace_back("cycle", step.load.cycle);
   return record;
 }
 
 } // namespace
+
+std::vector<Record> cycle_rows(const std::vector<LoadCycle> &cycles)
+{
+  std::vector<Record> rows;
+  for (const LoadCycle &cycle : cycles)
+    rows.push_back({{"cycle", rows.size() + 1},
+                    {"load_step", cycle.load_step},
+                    {"dissipated_energy", cycle.dissipated},
+                    {"work", cycle.work},
+                    {"change", cycle.change}});
+  return rows;
+}
 
 template <int dim>
 void Tables<dim>::add(const StepReport<dim> &step)

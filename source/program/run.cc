@@ -169,6 +169,7 @@ struct Ending
   std::vector<std::string> warnings;
   std::string words, reason;
   std::string last_bound; ///< of the last step that has one
+  unsigned int load_steps = 0;
 
   template <int dim>
   void hear(const StepReport<dim> &step);
@@ -177,6 +178,7 @@ struct Ending
 template <int dim>
 void Ending::hear(const StepReport<dim> &step)
 {
+  load_steps = step.load.number;
   times += step.times;
   reason = stop_reason(step.stopped_by, step.scene.adaptivity, bool(step.bound),
                        step.bound && step.bound->kind != BoundKind::energy);
@@ -233,7 +235,7 @@ void print_end(const Scene<dim> &scene, const Ending &ending, const std::string 
     std::cout << "\nwarning: " << warning;
   std::cout << (ending.warnings.empty() ? "" : "\n") << '\n'
             << (scene.has_load_history()
-                    ? std::to_string(scene.loading.steps) + " load steps; the last "
+                    ? std::to_string(ending.load_steps) + " load steps; the last "
                     : "")
             << ending.reason << "\nresults in " << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");

@@ -149,6 +149,16 @@ public:
     return loads;
   }
 
+  std::vector<Record> contact_history() const override
+  {
+    return contact_history_rows(scene, history.contact);
+  }
+
+  std::vector<Record> cycles() const override
+  {
+    return cycle_rows(history.cycles);
+  }
+
   std::vector<std::pair<std::string, std::vector<Record>>> probe_lines() const override
   {
     std::vector<std::pair<std::string, std::vector<Record>>> lines;
@@ -198,6 +208,7 @@ private:
 
   Tables<dim> tables;
   std::vector<Record> loads;
+  HistorySoFar history; ///< up to the last load step that is over
 };
 
 template <int dim>
@@ -207,7 +218,10 @@ void RunOf<dim>::take(const StepReport<dim> &step)
   tables.add(step);
   steps.push_back(tables.convergence.last);
   if (step.load.number > 0 && !step.stopped_by.empty())
+  {
     loads.push_back(tables.loading.last);
+    history = step.history;
+  }
   stopped_by = text(step.stopped_by);
   warnings = texts(step.warnings);
 }
@@ -318,7 +332,7 @@ std::shared_ptr<Result> run(const ParameterFile &file, const std::string &direct
       output->write_step(step, result->solver.get());
     if (!listener.finished(result))
       throw Enough();
-    if (step.stopped_by.empty() || step.load.number < result->scene.loading.steps)
+    if (step.stopped_by.empty() || (result->scene.has_load_history() && !step.load.is_last))
       result->last.reset();
   };
   try

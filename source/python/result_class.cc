@@ -197,6 +197,12 @@ void add_result(py::module_ &module)
           "loading", [](const Result &result) { return columns(result.loading()); },
           "The columns of loading.csv, a value a load step; empty without a load history.")
       .def_property_readonly(
+          "contact_history", [](const Result &result) { return columns(result.contact_history()); },
+          "The columns of contact-history.csv, a value a point; empty without a load history.")
+      .def_property_readonly(
+          "cycles", [](const Result &result) { return columns(result.cycles()); },
+          "The columns of cycles.csv, a value a cycle; empty without Loading/Until steady.")
+      .def_property_readonly(
           "probe_lines",
           [](const Result &result)
           {

@@ -89,6 +89,7 @@ std::vector<Entry> pair_entries(const std::string &name)
        std::make_shared<Patterns::Selection>("automatic|limited|cohesive"),
        "automatic, limited or cohesive",
        "What Friction bound g and Friction coefficient mu_f make together, as in a Boundary."},
+      wear_entry(section),
       {section, "Slave", "automatic", text, "automatic or one of the two sides",
        "Which of the two sides has the multipliers. automatic: on each mesh the one with more of "
        "them, of equal ones the first."}};
@@ -222,7 +223,7 @@ void check_covered_sides(const Parameters &parameters, const Scene<2> &scene)
     for (const char *const entry :
          {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Force",
           "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound",
-          "Friction coefficient"})
+          "Friction coefficient", "Wear coefficient"})
       if (says_something(parameters, section, entry))
         parameters.reject(section, entry,
                           "acts nowhere, for " + section_of_pair(part.pair_name) +
@@ -285,6 +286,7 @@ void read_pair(const Parameters &parameters, const std::optional<double> t, cons
                                                      "Coulomb's coefficient needs mu_f >= 0");
   part.friction.form =
       read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
+  part.wear = read_wear(parameters, section, !part.is_tied());
   if (!part.is_unilateral() && !parameters.text(section, "Gap").empty())
     parameters.reject(section, "Gap",
                       "needs contact that can open; set Law = unilateral or remove it");

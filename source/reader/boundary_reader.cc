@@ -32,6 +32,19 @@ std::vector<Entry> part_entries(const std::string &part, const std::vector<std::
            "line where the part ends between two."}};
 }
 
+Entry wear_entry(const std::string &section)
+{
+  return {
+      section,
+      "Wear coefficient",
+      "0",
+      std::make_shared<Patterns::Double>(0),
+      "a number of 0 or more",
+      "Archard's coefficient k [1/stress] in a load history: contact-history.csv has the depth "
+      "k int p |ds| that is worn off, p the pressure and s the slip. It is reckoned afterwards: "
+      "neither gaps nor pressures change with it; 0: none."};
+}
+
 std::vector<Entry> boundary_entries(const std::string &boundary)
 {
   const auto text = std::make_shared<Patterns::Anything>();
@@ -97,7 +110,8 @@ std::vector<Entry> boundary_entries(const std::string &boundary)
        "What Friction bound g and Friction coefficient mu_f make together, with p = max(0, -T_n). "
        "limited: |T_t| <= min(mu_f p, g), Coulomb's friction until the material shears. cohesive: "
        "|T_t| <= g + mu_f p, where unilateral contact is open also. automatic: the law of the one "
-       "that is given, Tresca's or Coulomb's."}};
+       "that is given, Tresca's or Coulomb's."},
+      wear_entry(section)};
 }
 
 namespace
@@ -264,6 +278,19 @@ void read_axis(const Parameters &parameters, const std::string &section)
 }
 } // namespace
 
+double read_wear(const Parameters &parameters, const std::string &section, const bool slides)
+{
+  const char *const entry = "Wear coefficient";
+  const double wear = parameters.number(section, entry);
+  if (wear > 0 && !slides)
+    parameters.reject(section, entry, "wears off what slides, and nothing does here; remove it");
+  if (wear > 0 && parameters.text("Loading", "Steps").empty())
+    parameters.reject(section, entry,
+                      "is of slip in a load history, and the scene has none; set Loading/Steps or "
+                      "remove it");
+  return wear;
+}
+
 template <int dim>
 void read_boundary(const Parameters &parameters, const std::optional<double> t,
                    const Scene<dim> &scene, BoundaryCondition<dim> &boundary)
@@ -301,6 +328,7 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
                                                          "Coulomb's coefficient needs mu_f >= 0");
   boundary.friction.form =
       read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
+  boundary.wear = read_wear(parameters, section, boundary.has_contact());
   // Even a zero is one too many.
   if (!boundary.is_unilateral() && !parameters.text(section, "Gap").empty())
     parameters.reject(section, "Gap", gap_needs_contact);

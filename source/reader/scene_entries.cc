@@ -170,7 +170,14 @@ void add_loading_entries(std::vector<Entry> &entries)
         "first step: the mesh of the first load step stays, or of the first whose solution is not "
         "exact, as that of no load is. every step: each load step adapts that of the one before; "
         "without Adaptivity/Tolerance until its relative indicator is no more than a fifth above "
-        "that of the first. The limits of Adaptivity hold for each load step."}});
+        "that of the first. The limits of Adaptivity hold for each load step."},
+       {section, "Until steady", "", word_or("", Patterns::Double(1e-12, 0.5)),
+        "a share from 1e-12 to 0.5, or nothing",
+        "Repeats the load steps from t = 0 to 1 as a cycle until the energy that friction "
+        "dissipates in one differs from that in the one before by less than this share; empty: "
+        "they are gone through once."},
+       {section, "Maximum cycles", "20", matching(Patterns::Integer(2, 1000)),
+        "an integer from 2 to 1000", "Of Until steady: no cycle is begun after this many."}});
 }
 
 void add_program_entries(std::vector<Entry> &entries)

@@ -384,6 +384,18 @@ Loading<dim> read_loading(const std::shared_ptr<const Parameters> &parameters,
   }
   else if (loading.adapt != LoadAdaptivity::every_step)
     parameters->reject("Loading", "Adapt", "has no load step to mean; set Steps or remove it");
+  loading.maximum_cycles = parameters->integer("Loading", "Maximum cycles");
+  if (const std::string share = parameters->text("Loading", "Until steady"); share.empty())
+  {
+    if (loading.maximum_cycles != 20)
+      parameters->reject("Loading", "Maximum cycles",
+                         "has no cycle to mean; set Until steady or remove it");
+  }
+  else if (loading.steps == 0)
+    parameters->reject("Loading", "Until steady",
+                       "has no load step to repeat; set Steps or remove it");
+  else
+    loading.until_steady = parameters->number("Loading", "Until steady");
   return loading;
 }
 } // namespace

@@ -5,6 +5,7 @@
 #include <hpvi/results/contact_traces.h>
 #include <hpvi/results/contact_zones.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
@@ -36,6 +37,25 @@ bool runs_backwards(const FieldFace<2> &face)
 {
   const auto at = [&](const double s) { return point_on_face<2>(face.face_no, Point<1>(s)); };
   return face.frame(at(0.5)).tangents[0] * (face.map.point(at(1.)) - face.map.point(at(0.))) < 0;
+}
+
+/** The larger principal stress along the surface with @p normal. */
+template <int dim>
+double surface_stress(const SymmetricTensor<2, dim> &sigma, const Tensor<1, dim> &normal)
+{
+  if constexpr (dim == 2)
+  {
+    const Tensor<1, 2> t = cross_product_2d(normal);
+    return t * (sigma * t);
+  }
+  else
+  {
+    const ContactAxes<dim> axes = contact_axes(normal);
+    const double a = axes.tangents[0] * (sigma * axes.tangents[0]),
+                 b = axes.tangents[1] * (sigma * axes.tangents[1]),
+                 c = axes.tangents[0] * (sigma * axes.tangents[1]);
+    return (a + b) / 2 + std::hypot((a - b) / 2, c);
+  }
 }
 
 /** What happens on the faces of this process. */
@@ -96,6 +116,8 @@ void OwnContact<dim>::add_points(const FieldFace<dim> &face, ContactState<dim> &
                                                            : traces.normal_traction(q);
     point.tangential_traction = Tangential<dim>() - z; // never -0
     point.slip = point.tangential_jump - field.past_slip(face, frame.x);
+    point.surface_stress =
+        surface_stress<dim>(traces.sigma(q), face.map.normal(face.face_no, multiplier.reference));
     points.push_back(point);
 
     const Tangential<dim> force = multiplier.area * z;

@@ -134,7 +134,13 @@ unsigned int own_start_degree(const Method method)
 template <int dim>
 double Loading<dim>::time(const unsigned int step) const
 {
-  return static_cast<double>(step) / steps;
+  return static_cast<double>((step - 1) % steps + 1) / steps;
+}
+
+template <int dim>
+unsigned int Loading<dim>::cycle(const unsigned int step) const
+{
+  return until_steady == 0 ? 0 : (step - 1) / steps + 1;
 }
 
 // ---------------------------------------------------------------- the scene

@@ -31,11 +31,11 @@ UNITS = {
     "Lower corner": "point", "Upper corner": "point", "Corners": "point", "Centre": "point", "Graded towards": "point", "At": "point",
     "From": "point", "To": "point", "Radii": (0, 1), "Radius": (0, 1), "Size": (0, 1), "Mesh size": (0, 1), "Young's modulus": (1, 0), "Young's moduli": (1, 0),
     "Shear moduli": (1, 0), "Density": (1, -1), "Body force/Expression": (1, -1), "Displacement": (0, 1), "Traction": (1, 0), "Pressure": (1, 0),
-    "Shear": (1, 0), "Spring": (1, -1), "Force": (1, 1), "Moment": (1, 2), "Gap": (0, 1), "Closed within": (0, 1), "Friction bound": (1, 0),
+    "Shear": (1, 0), "Spring": (1, -1), "Force": (1, 1), "Moment": (1, 2), "Gap": (0, 1), "Closed within": (0, 1), "Friction bound": (1, 0), "Wear coefficient": (-1, 0),
     "Exact solution/Transition": "x", "Exact solution/Length": (0, 1), "Exact solution/Stick length": (0, 1)}
 WITHOUT = """Title Dimension Units/Length Units/Stress Shape Angles Angle Part File Subdivisions Grading=levels Where Poisson's=ratio Poisson's=ratios
 Initial=strain Thermal=expansion Plane Thickness Elasticity Gravity Temperature/Expression Exact=solution/Solution Symmetry Rigid Rotation Contact
-Contact=direction Friction=coefficient Friction=law Curve On Loading/Steps Adapt Output/Steps VTU Mesh=picture Contact=tables Reference=solution Bound
+Contact=direction Friction=coefficient Friction=law Curve On Loading/Steps Adapt Until=steady Maximum=cycles Output/Steps VTU Mesh=picture Contact=tables Reference=solution Bound
 Bound=on=distorted=cells Length=unit Mesh=size=from=curvature Curves Surfaces Material Between Law Slave Points""".replace("=", "\0").split()
 UNITS.update({entry.replace("\0", " "): None for entry in WITHOUT})
 # Entries of geometries have defaults that mean nothing to other shapes, and may not be named there.

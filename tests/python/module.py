@@ -85,6 +85,7 @@ class Numbers(Case):
                 self.same_table(result.forces, forces)
                 if (out / "loading.csv").exists():
                     self.same_table(result.loading, out / "loading.csv")
+                    self.same_table(result.contact_history, out / "contact-history.csv")
                 for name, line in result.probe_lines.items():
                     self.same_table(line, out / f"probe-{name}-{last:02d}.csv")
                 summary = json.loads((out / "summary.json").read_text())

@@ -19,6 +19,7 @@ STEPS = "Adaptivity/Maximum steps=7"
 RUN = (STEPS, "Error/Bound=false")
 # Histories of loads, the first setting that of their number: in the plane Coulomb's law and Tresca's, of one body and of two, on the
 # other path, and in space.
+# With cycles there are more of them.
 HISTORIES = (
     ("fretting", ("Loading/Steps=5", "Loading/Adapt=first step", "Adaptivity/Tolerance=0.1", "Output/Steps=last")),
     ("fretting", ("Loading/Steps=4", "Adaptivity/Maximum steps=3", "Boundary bottom/Friction coefficient=",
@@ -27,6 +28,8 @@ HISTORIES = (
     ("fretting", ("Loading/Steps=3", "Solver/Path=primal", "Adaptivity/Method=hap2", "Adaptivity/Start degree=2",
                   "Boundary bottom/Contact=bilateral", "Boundary bottom/Friction coefficient=",
                   "Boundary bottom/Friction bound=2", "Adaptivity/Maximum steps=2")),
+    ("fretting", ("Loading/Steps=2", "Loading/Until steady=1e-6", "Loading/Maximum cycles=2", "Loading/Adapt=first step",
+                  "Boundary bottom/Wear coefficient=1e-6", "Adaptivity/Maximum steps=2", "Output/VTU=false")),
     ("fretting-dome", ("Loading/Steps=3", "Loading/Adapt=every step", "Output/VTU=false", "Adaptivity/Maximum unknowns=2000",
                        "Adaptivity/Maximum steps=2")))
 # Besides summary.json, which has times; convergence.csv is compared without them.

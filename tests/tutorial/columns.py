@@ -14,7 +14,7 @@ HPVI, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
 # Together these write every kind of table.
 SPACE = ["--set", "Probe spot/At=0.5, 0.5, 0.1", "--set", "Probe cut/From=0.5, 0.5, 0.1", "--set", "Probe cut/To=0.6, 0.5, 0.1"]
 RUNS = (["prm/han-6-12.prm"], ["prm/ssnv128.prm"], [*SPACE, "prm/slab.prm"], ["prm/blocks.prm"],
-        ["--set", "Loading/Steps=2", "prm/fretting.prm"], ["prm/propped.prm"])
+        ["--set", "Loading/Steps=2", "--set", "Loading/Until steady=0.5", "--set", "Loading/Maximum cycles=2", "prm/fretting.prm"], ["prm/propped.prm"])
 
 
 def documented():

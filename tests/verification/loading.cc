@@ -23,6 +23,7 @@ struct State
   unsigned int n_elements, multiplications;
   double energy, slack, slip, largest_slip; ///< slip: int |u_t - past| by the contact points
   std::vector<ContactPoint<2>> points;
+  HistorySoFar history;
 };
 
 /** The last step of each load step. */
@@ -44,7 +45,8 @@ std::vector<State> evolution(const Scene<2> &scene)
                     step.energies.slack,
                     0.,
                     0.,
-                    {}};
+                    {},
+                    step.history};
         for (const ContactState<2> &contact : step.contact)
           for (const ContactPoint<2> &point : contact.points)
           {
@@ -142,6 +144,7 @@ TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
   const std::vector<State> states = evolution(block(path, contact, steps));
   ASSERT_EQ(states.size(), steps);
   double dissipated = 0, trapezoidal = 0, slip = 0, work = 0, tau = 0, last_p = 0, U = 0;
+  double path_length = 0, rubbed = 0, lowest = 0, highest = 0, shear = 0;
   for (unsigned int k = 1; k <= steps; ++k)
   {
     const State &state = states[k - 1];
@@ -169,6 +172,22 @@ TEST_P(JenkinsElement, IsFollowedThroughItsCycles)
     EXPECT_NEAR(state.load.released, work - dissipated - state.load.stored, 1e-10);
     EXPECT_NEAR(state.load.unbalanced, 0, 1e-12);
     EXPECT_NEAR(state.slack, 0, 1e-12);
+    path_length += std::abs(exact.slip - slip);
+    rubbed += p * std::abs(exact.slip - slip);
+    lowest = std::min(lowest, exact.slip);
+    highest = std::max(highest, exact.slip);
+    shear = std::max(shear, std::abs(exact.tau));
+    for (PointHistory point : state.history.contact.at(0).points)
+    {
+      EXPECT_NEAR(point.path, path_length, 1e-10);
+      EXPECT_NEAR(point.rubbed, rubbed, 1e-10);
+      EXPECT_NEAR(point.slip_range(), highest - lowest, 1e-10);
+      EXPECT_NEAR(point.dissipated, dissipated / width, 1e-10);
+      EXPECT_NEAR(point.shear, shear, 1e-10);
+      EXPECT_NEAR(point.pressure, path.pressure(1. / steps), 1e-10);
+      EXPECT_NEAR(point.tension, 0, 1e-10);
+      EXPECT_EQ(point.open, 0);
+    }
     slip = exact.slip;
     tau = exact.tau;
     last_p = p;
@@ -262,6 +281,22 @@ TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
                   1e-5);
         EXPECT_NEAR(step.contact[0].friction_resultant, -forces[k], 1e-4);
         EXPECT_NEAR(step.load.dissipated, dissipated[k], 1e-4 * dissipated[k]) << k;
+        // Slip from point to point, forth and then back.
+        const std::vector<PointHistory> &points = step.history.contact.at(0).points;
+        const double longest = std::abs(mindlin.loading(Mindlin::Q_1, {Mindlin::a, 0.})[0]);
+        double sum = 0;
+        for (unsigned int i = 0; i < points.size(); ++i)
+        {
+          const Point<2> x(points[i].x[0], 0.);
+          const double forth = mindlin.loading(Mindlin::Q_1, x)[0],
+                       back = 2 * mindlin.loading((Mindlin::Q_1 - forces[k]) / 2, x)[0];
+          EXPECT_NEAR(points[i].path, std::abs(forth) + std::abs(back), 1e-4 * longest) << x;
+          EXPECT_NEAR(points[i].slip_range(), std::max(std::abs(forth), std::abs(back)),
+                      1e-4 * longest)
+              << x;
+          sum += step.contact[0].points[i].area * points[i].dissipated;
+        }
+        EXPECT_NEAR(sum, dissipated[k], 1e-4 * dissipated[k]) << k;
       });
 }
 

@@ -2,6 +2,7 @@
 #ifndef hpvi_finished_loads_h
 #define hpvi_finished_loads_h
 
+#include <hpvi/results/contact_history.h>
 #include <hpvi/results/warnings/warnings.h>
 #include <hpvi/scene/data_scale.h>
 
@@ -19,6 +20,38 @@ struct LoadStep
   double released = 0;    ///< the sum of Work::released, likewise
   double unbalanced = 0;  ///< the sum of Work::unbalanced, likewise
   double trapezoidal = 0; ///< the sum of Work::trapezoidal, likewise
+  unsigned int cycle = 0; ///< Loading::cycle()
+  bool is_last = false;   ///< of the history, once it is over
+};
+
+/** One of the cycles of Loading::until_steady. */
+struct LoadCycle
+{
+  unsigned int load_step; ///< its last one
+  double work;            ///< in this cycle [stress length^dim]
+  double dissipated;      ///< likewise
+  /** |dissipated - that of the cycle before| over the larger; 0 where both are round-off of the work, infinite in the first. */
+  double change;
+};
+
+/** The largest value of something at the ends of load steps so far. */
+struct HistoryLargest
+{
+  double value = 0;
+  std::array<double, 3> where{};
+  unsigned int boundary = dealii::numbers::invalid_boundary_id; ///< of contact
+  unsigned int load_step = 0;                                   ///< 0: there is none
+  double t = 0;
+};
+
+/** What lasts from load step to load step, for those who look at a history. */
+struct HistorySoFar
+{
+  std::vector<ContactHistory> contact; ///< the first process's
+  std::vector<LoadCycle> cycles;       ///< that are over
+  HistoryLargest pressure, von_mises;  ///< [stress]
+  HistoryLargest
+      opening; ///< of unilateral contact: min(u_0 - [u]_n, -[u]_n), what loads have opened [length]
 };
 
 /** What the load steps of a history leave to the next one, besides the solution of the last of them. */
@@ -34,6 +67,7 @@ struct FinishedLoads
   DataScale past_data;      ///< of the scene of the last, as load_step() got it
   DataScale data;           ///< likewise, as it was solved
   Warnings warnings;        ///< the worst of each kind
+  HistorySoFar so_far;
 };
 } // namespace hpvi
 

@@ -66,6 +66,7 @@ struct StepReport
   Warnings warnings{};     ///< of the last step: what in the result asks for care
   Equilibrium<dim> equilibrium{};
   LoadStep load{};
+  HistorySoFar history{};                          ///< of a load step that is over
   std::vector<StressSample<dim>> extrema{};        ///< stress_extrema()
   std::vector<StressSingularity<dim>> unbounded{}; ///< of the last step alone
   std::vector<Resultant<dim>> forces{};            ///< the rows of forces.csv

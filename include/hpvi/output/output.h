@@ -45,6 +45,8 @@ public:
  * | `degrees.csv` | number of elements of each degree, a row per step |
  * | `forces.csv` | a row per step and boundary: its force on the body |
  * | `loading.csv` | a row per load step, where the scene has a history |
+ * | `contact-history.csv` | contact_history_rows(), likewise |
+ * | `cycles.csv` | a row per cycle of Loading::until_steady |
  * | `contact-NN.csv` | traces at the Gauss points of the contact faces, sorted along the tangent |
  * | `probe-NAME-NN.csv` | displacement and stress along a line |
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on cells of the degree of u_N |
@@ -121,6 +123,7 @@ private:
   void write_pictures(const StepReport<dim> &step);
   void add_to_collections(const StepReport<dim> &step);
   void write_reference(const StepReport<dim> &step);
+  void write_history(const StepReport<dim> &step);
   void write_tables(const StepReport<dim> &step, const std::optional<RunState<dim>> &state);
 
   const Scene<dim> &scene;

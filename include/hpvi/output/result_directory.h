@@ -21,7 +21,8 @@ namespace results
 {
 inline const std::string
     always = "scene\\.prm|convergence\\.csv|degrees\\.csv|forces\\.csv|summary\\.json|state\\.dat",
-    loading = "loading\\.csv", contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
+    loading = "loading\\.csv|contact-history\\.csv|cycles\\.csv",
+    contact = "contact-[0-9]{2,}\\.csv", mesh = "mesh-[0-9]{2,}\\.svg",
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
     contact_line = "contact-[0-9]{2,}\\.vtu|contact\\.pvd", reference = "reference\\.dat",

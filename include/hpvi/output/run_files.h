@@ -21,6 +21,8 @@ struct RunFiles
   JsonTree summary;
   std::vector<Record> steps;   ///< rows of convergence.csv
   std::vector<Record> loads;   ///< rows of loading.csv
+  std::vector<Record> history; ///< rows of contact-history.csv
+  std::vector<Record> cycles;  ///< rows of cycles.csv
   std::vector<Record> forces;  ///< rows of forces.csv of the last step
   std::vector<Record> contact; ///< rows of contact-NN.csv of the last step
   std::string mesh;            ///< mesh-NN.svg of the last step; empty: there is none

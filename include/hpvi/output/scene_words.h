@@ -35,6 +35,10 @@ std::string name_in_words(const Scene<dim> &scene, std::size_t number);
 template <int dim>
 std::set<std::size_t> materials_of(const dealii::Triangulation<dim> &mesh);
 
+/** As in "20 load steps". */
+template <int dim>
+std::string history_in_words(const Loading<dim> &loading);
+
 /**
  * What a scene says, a line each: body, materials, each boundary that is not free, the resultant of all loads. Throws
  * InputError where an expression has no value.

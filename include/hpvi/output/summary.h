@@ -56,7 +56,8 @@ struct Summary
     std::string estimate = "null", coupling = "null", zones = "null"; ///< StepReport::Equilibrated
     std::string forces = "null", balance = "null", contact = "null", von_mises = "null",
                 plates = "null", largest_displacement = "null",
-                no_intervals = "null"; ///< or why forces and probes have none
+                no_intervals = "null", ///< or why forces and probes have none
+        history_largest = "null";      ///< of a load history
   };
   Ending ending;
 

@@ -38,6 +38,9 @@ private:
   std::size_t n_columns = 0; ///< the highest degree so far and 1
 };
 
+/** Rows of `cycles.csv`. */
+std::vector<Record> cycle_rows(const std::vector<LoadCycle> &cycles);
+
 /** Name and seconds of every stage. */
 Record stage_record(const StageTimes &times);
 } // namespace hpvi

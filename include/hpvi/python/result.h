@@ -45,9 +45,11 @@ public:
   std::string stopped_by;            ///< why there is no next step; empty: there is one
   std::vector<std::string> warnings; ///< of the last step
 
-  virtual std::vector<Record> contact() const = 0; ///< contact-NN.csv
-  virtual std::vector<Record> forces() const = 0;  ///< of forces.csv
-  virtual std::vector<Record> loading() const = 0; ///< loading.csv; empty without a history
+  virtual std::vector<Record> contact() const = 0;         ///< contact-NN.csv
+  virtual std::vector<Record> forces() const = 0;          ///< of forces.csv
+  virtual std::vector<Record> loading() const = 0;         ///< loading.csv; empty without a history
+  virtual std::vector<Record> contact_history() const = 0; ///< contact-history.csv, likewise
+  virtual std::vector<Record> cycles() const = 0;          ///< cycles.csv, likewise
   virtual std::vector<std::pair<std::string, std::vector<Record>>>
   probe_lines() const = 0; ///< by name
   virtual MeshArrays mesh() const = 0;

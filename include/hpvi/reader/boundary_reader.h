@@ -19,6 +19,12 @@ std::vector<Entry> boundary_entries(const std::string &boundary);
 /** What a part of a side has beside these. */
 std::vector<Entry> part_entries(const std::string &part, const std::vector<std::string> &sides);
 
+/** `Wear coefficient` of a boundary or a pair. */
+Entry wear_entry(const std::string &section);
+
+/** Its value; throws InputError where nothing @p slides, or there is no load history. */
+double read_wear(const Parameters &parameters, const std::string &section, bool slides);
+
 /** Is the entry named with more than what it is where nobody names it, as scene.prm names all? */
 bool says_something(const Parameters &parameters, const std::string &section,
                     const std::string &entry);

@@ -45,6 +45,8 @@ struct ContactPoint
   double normal_traction = 0;
   Tangential<dim> tangential_traction{}; ///< T_t = -z_N [stress]
   Tangential<dim> slip{}; ///< [u]_t, in a load history less that of the load step before [length]
+  /** The largest stress along the surface of the body with the multipliers, in the plane t . sigma(u_N) t [stress]. */
+  double surface_stress = 0;
 
   ContactMode mode() const
   {
@@ -56,7 +58,7 @@ struct ContactPoint
   {
     archive &x &area &face_length &friction_bound &lambda &slips &is_open &gap &normal_displacement
         &tangential_displacement &normal_jump &tangential_jump &normal_traction &tangential_traction
-            &slip;
+            &slip &surface_stress;
   }
 };
 

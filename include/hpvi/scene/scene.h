@@ -187,12 +187,19 @@ enum class LoadAdaptivity
 template <int dim>
 struct Loading
 {
-  unsigned int steps = 0; ///< 0: one problem, without time
+  unsigned int steps = 0; ///< from t = 0 to 1; 0: one problem, without time
   LoadAdaptivity adapt = LoadAdaptivity::every_step;
   /** The scene at the time t, itself without history: same body, same kinds of conditions. */
   std::function<Scene<dim>(double t)> at;
+  /**
+   * The steps are a cycle that is repeated until the energy that friction dissipates in one differs from that in the one before by
+   * less than this share; 0: they are gone through once.
+   */
+  double until_steady = 0;
+  unsigned int maximum_cycles = 20; ///< of these
 
-  double time(unsigned int step) const; ///< of a load step, counted from 1
+  double time(unsigned int step) const;        ///< of a load step, counted from 1, in its cycle
+  unsigned int cycle(unsigned int step) const; ///< likewise from 1; 0: there are none
 };
 
 /** What a scene is there for. */

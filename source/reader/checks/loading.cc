@@ -40,6 +40,11 @@ void check_load_history(const Scene<dim> &scene, const SceneUse use)
     reject(scene, "Loading", "Steps",
            "is no history; give an integer from 1 to 10000, and the scene of each load step",
            std::to_string(loading.steps));
+  if (loading.until_steady != 0 &&
+      !(loading.until_steady >= 1e-12 && loading.until_steady <= 0.5 && loading.maximum_cycles > 1))
+    reject(scene, "Loading", "Until steady",
+           "is no share; give a number from 1e-12 to 0.5, and two or more Maximum cycles",
+           to_string(loading.until_steady));
   if (use == SceneUse::measure)
     reject(scene, "Loading", "Steps",
            "is a history, and the inf-sup constant is one of a mesh, whatever the load; remove it",

@@ -83,6 +83,16 @@ Warnings dissipation_warnings(const double at_ends, const double trapezoidal, co
                 100 * difference / larger, " % apart; take more Loading/Steps")}};
 }
 
+Warnings steady_warnings(const double change, const double asked_for)
+{
+  if (!(change > asked_for))
+    return {};
+  return {{WarningKind::unsteady, change,
+           line("the energy that friction dissipates in the last cycle differs by ", 100 * change,
+                " % from that in the one before, and Loading/Until steady asks for ",
+                100 * asked_for, " %; raise Loading/Maximum cycles")}};
+}
+
 Warnings bound_warnings(const double relative, const double imbalance)
 {
   if (!(relative < 1e-9 && relative > 1e-12)) // below that a run ends as exact to round-off

@@ -55,7 +55,8 @@ enum class WarningKind
   dense_work,        ///< takes long
   bound_round_off,   ///< holds up to round-off alone
   cut_off,           ///< Newton's method gave up
-  multigrid          ///< likewise
+  multigrid,         ///< likewise
+  unsteady           ///< cycles of a history go on to change
 };
 
 /** What in a result asks for care: a line with its numbers and a remedy. */
@@ -145,6 +146,9 @@ Warnings load_step_warnings(double relative_estimate);
  * @p energy, which was turned over.
  */
 Warnings dissipation_warnings(double at_ends, double trapezoidal, double energy);
+
+/** Of a history that is over: that its last cycle differs from the one before by a share @p change, more than @p asked_for; or none. */
+Warnings steady_warnings(double change, double asked_for);
 
 /** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; or none. */
 Warnings bound_warnings(double relative, double imbalance);
