@@ -224,7 +224,8 @@ void check_covered_sides(const Parameters &parameters, const Scene<2> &scene)
          {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Force",
           "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound",
           "Friction coefficient", "Wear coefficient"})
-      if (says_something(parameters, section, entry))
+      if (says_something(parameters, section, entry) &&
+          (entry != std::string("Wear coefficient") || parameters.number(section, entry) > 0))
         parameters.reject(section, entry,
                           "acts nowhere, for " + section_of_pair(part.pair_name) +
                               " has all of this side; remove it");

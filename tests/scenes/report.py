@@ -18,8 +18,8 @@ SHORT = "Adaptivity/Maximum steps=4"
 # Of each kind: a bound, a load history, two bodies, a plate, space. Which charts each has, and what makes it short.
 SCENES_OF_ALL_KINDS = (
     ("han-6-12", {"contact", "convergence"}, SHORT),
-    ("fretting", {"contact", "convergence", "energies", "loop"}, "Loading/Steps=5", "Adaptivity/Maximum steps=2"),
-    ("lap-joint", {"contact", "convergence", "energies", "loop"}, "Loading/Steps=4", "Adaptivity/Maximum steps=2",
+    ("fretting", {"contact", "convergence", "energies", "loop", "slip"}, "Loading/Steps=5", "Adaptivity/Maximum steps=2", "Boundary bottom/Wear coefficient=1e-6"),
+    ("lap-joint", {"contact", "convergence", "energies", "loop", "slip"}, "Loading/Steps=4", "Adaptivity/Maximum steps=2",
      "Boundary upper strap.right/Displacement=0.04*sin(2*pi*t); -0.001"),  # what moves once and stays there has no loop
     ("punch-plate", {"contact", "convergence"}, "Adaptivity/Maximum steps=2"),
     ("dome", set(), "Adaptivity/Maximum steps=1"))
@@ -104,6 +104,21 @@ class Report(RunTest):
         if "friction T_t" in chart.lines:
             self.check_line(chart, "friction T_t", friction)
 
+    def check_history_chart(self, chart, name):
+        columns = {"pressure": "pressure_max", "shear": "shear_max", "path": "slip_path", "range": "slip_range", "depth": "wear_depth"}
+        rows = [row for row in self.rows("contact-history.csv") if (row.get("contact") or row["boundary"]) == name]
+        summary, boundary = self.summary()["contact"], rows[0]["boundary"]
+        at = (summary.get(boundary) or summary[f"{boundary} ({name})"])["zones"][0]["from"]
+        length, places = 0, []
+        for row in rows:
+            place = (float(row["x"]), float(row["y"]))
+            length += math.dist(at, place)
+            places.append(length)
+            at = place
+        self.assertTrue(chart.lines)
+        for words in chart.lines:
+            self.check_line(chart, words, [(x, float(row[columns[words]])) for x, row in zip(places, rows)])
+
     def check_charts(self, page):
         """Against the tables of the same run: contact, history, convergence. Returns what there was."""
         seen = set()
@@ -117,6 +132,10 @@ class Report(RunTest):
                 name = re.match("Contact (.*?)( \\(.*\\))? over its arc length", chart.caption)[1]
                 self.check_contact_chart(chart, contacts.pop(name), units)
                 seen.add("contact")
+            elif chart.caption.startswith("Load history: over"):
+                name = re.match("Load history: over the arc length of contact (.*?)( \\(.*\\))?, up", chart.caption)[1]
+                self.check_history_chart(chart, name)
+                seen.add("slip")
             elif chart.caption.startswith("Load history: work"):
                 self.assertEqual((chart.x_label, chart.y_label), ("t", "energy [N mm]"))
                 for name, column in (("work", "work"), ("stored", "stored_energy"), ("dissipated", "dissipated_energy")):

@@ -23,7 +23,7 @@ struct State
   unsigned int n_elements, multiplications;
   double energy, slack, slip, largest_slip; ///< slip: int |u_t - past| by the contact points
   std::vector<ContactPoint<2>> points;
-  HistorySoFar history;
+  HistorySoFar history = {};
 };
 
 /** The last step of each load step. */
