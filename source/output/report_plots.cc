@@ -338,8 +338,8 @@ std::string history_plots(const Scene<2> &scene, const RunFiles &files)
                                 {{"pressure_max", "pressure"}, {"shear_max", "shear"}}, length)) +
           history_plot(files, contact, with_unit_of("slip", length),
                        {{"slip_path", "path"}, {"slip_range", "range"}}, length) +
-          history_plot(files, contact, with_unit_of("wear depth", length), {{"wear_depth", "depth"}},
-                       length);
+          history_plot(files, contact, with_unit_of("wear depth", length),
+                       {{"wear_depth", "depth"}}, length);
   return charts;
 }
 

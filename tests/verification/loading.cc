@@ -281,22 +281,21 @@ TEST(LoadHistory, UnloadsAsMindlinAndDeresiewiczFound)
                   1e-5);
         EXPECT_NEAR(step.contact[0].friction_resultant, -forces[k], 1e-4);
         EXPECT_NEAR(step.load.dissipated, dissipated[k], 1e-4 * dissipated[k]) << k;
-        // Slip from point to point, forth and then back.
+        // Slip from point to point, forth and then back, carried over from mesh to mesh.
         const std::vector<PointHistory> &points = step.history.contact.at(0).points;
         const double longest = std::abs(mindlin.loading(Mindlin::Q_1, {Mindlin::a, 0.})[0]);
         double sum = 0;
         for (unsigned int i = 0; i < points.size(); ++i)
         {
           const Point<2> x(points[i].x[0], 0.);
-          const double forth = mindlin.loading(Mindlin::Q_1, x)[0],
-                       back = 2 * mindlin.loading((Mindlin::Q_1 - forces[k]) / 2, x)[0];
-          EXPECT_NEAR(points[i].path, std::abs(forth) + std::abs(back), 1e-4 * longest) << x;
-          EXPECT_NEAR(points[i].slip_range(), std::max(std::abs(forth), std::abs(back)),
-                      1e-4 * longest)
-              << x;
+          const double forth = std::abs(mindlin.loading(Mindlin::Q_1, x)[0]),
+                       back = 2 * std::abs(mindlin.loading((Mindlin::Q_1 - forces[k]) / 2, x)[0]),
+                       tolerance = 1e-3 * std::max(longest, forth + back);
+          EXPECT_NEAR(points[i].path, forth + back, tolerance) << x;
+          EXPECT_NEAR(points[i].slip_range(), std::max(forth, back), tolerance) << x;
           sum += step.contact[0].points[i].area * points[i].dissipated;
         }
-        EXPECT_NEAR(sum, dissipated[k], 1e-4 * dissipated[k]) << k;
+        EXPECT_NEAR(sum, dissipated[k], 1e-3 * dissipated[k]) << k;
       });
 }
 
