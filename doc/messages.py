@@ -18,7 +18,7 @@ PAGE = ROOT / "doc/manual/messages.md"
 TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|^\#[^\n]*|R"\((?P<raw>.*?)\)"|"(?P<literal>(?:[^"\\]|\\.)*)"|'(?:[^'\\]|\\.)+'
                        |(?P<word>[A-Za-z_]\w*)|(?P<sign>[^\s\w])""", re.S | re.M | re.X)
 # What stands in brackets behind these is said.
-SPEAKERS = {"InputError", "reject", "Objection", "fail", "complain", "damaged", "refuse", "NumericalFailure", "MemoryFailure", "OutputFailure",
+SPEAKERS = {"InputError", "reject", "refuse_row", "refuse_card", "Objection", "fail", "complain", "damaged", "refuse", "NumericalFailure", "MemoryFailure", "OutputFailure",
             "ShapeFlaw", "Flaw", "Problem", "Missing", "InadmissibleContact", "WarningKind"}
 # Why there is no bound, and what names of other programs are called here, are literals of other forms: long ones of these sources.
 ALL_SAID = ("source/bound/error_bound.cc", "source/plane/matching.cc", "source/reader/scene_aliases.cc")

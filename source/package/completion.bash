@@ -29,6 +29,10 @@ _hpvi()
     [[ $scene ]] && break
   done
   case $prev in
+    --import)
+      _filedir inp
+      return
+      ;;
     --output | --resume | --report)
       _filedir -d
       return

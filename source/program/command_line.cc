@@ -33,6 +33,10 @@ po::options_description visible_options()
   add("report", po::value<std::string>()->value_name("DIR"),
       "write report.html into DIR, a page that tells of the run whose results are there, and solve "
       "nothing");
+  add("import", po::value<std::string>()->value_name("DECK.inp"),
+      "write a deck of CalculiX or Abaqus, of the plane or of revolution, as scene.prm and "
+      "mesh.msh "
+      "into DIR (default: output/<deck>), list what is left out, and solve nothing");
   add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
                  "small, and write no file");
   add("validate", "check the scene, say in words what it says, and write nothing");
@@ -120,6 +124,20 @@ void take_report(const std::string &directory, CommandLine &line)
   line.report = directory;
 }
 
+void take_import(const std::string &deck, CommandLine &line)
+{
+  const std::string begin = "hpvi: --import " + printable(deck, 400) + ": ";
+  if (!line.scene_file.empty() || !line.overrides.empty())
+    throw InputError(begin + "makes a scene of a deck; remove " +
+                     (line.scene_file.empty() ? "--set" : printable(line.scene_file, 400)));
+  if (line.validate || line.picture || line.inf_sup || line.print_parameters ||
+      !line.sweeps.empty() || line.resume || !line.report.empty())
+    throw InputError(begin + "solves nothing; remove the other command");
+  line.import = deck;
+  if (line.output_directory.empty())
+    line.output_directory = "output/" + std::filesystem::path(deck).stem().string();
+}
+
 void check_sweeps(const CommandLine &line)
 {
   const std::vector<SweptScene> scenes = swept_scenes(line.sweeps);
@@ -173,6 +191,8 @@ CommandLine parse(const int argc, const char *const argv[])
     take_report(values["report"].as<std::string>(), result);
   if (values.count("resume"))
     take_resume(values["resume"].as<std::string>(), result);
+  if (values.count("import"))
+    take_import(values["import"].as<std::string>(), result);
   if (!result.sweeps.empty())
     check_sweeps(result);
 
@@ -188,7 +208,7 @@ CommandLine parse(const int argc, const char *const argv[])
   const bool defaults = result.print_parameters && !result.validate && result.overrides.empty() &&
                         result.sweeps.empty();
   if (result.scene_file.empty() && !result.help && !result.version && !defaults &&
-      result.report.empty())
+      result.report.empty() && result.import.empty())
     throw InputError("hpvi: no scene; name a parameter file, as in hpvi prm/han-6-12.prm, or see "
                      "hpvi --help");
   return result;

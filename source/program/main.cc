@@ -11,6 +11,7 @@
 #include <hpvi/output/scene_words.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/failure.h>
+#include <hpvi/program/import_run.h>
 #include <hpvi/program/inf_sup_run.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/run.h>
@@ -195,6 +196,13 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
         {
           if (is_first_process())
             tell_of_run(command_line.report);
+        });
+  else if (!command_line.import.empty())
+    in_all_processes(
+        [&]()
+        {
+          if (is_first_process())
+            import_deck_into(command_line.import, command_line.output_directory);
         });
   else if (command_line.scene_file.empty())
     std::cout << default_parameters();

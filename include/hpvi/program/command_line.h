@@ -20,6 +20,7 @@ struct CommandLine
   std::vector<SweptEntry> sweeps; ///< `--sweep`: a scene for each combination of their values
   bool resume = false;            ///< go on in output_directory, whose scene.prm is the scene
   std::string report;             ///< the directory of the results to tell of; empty: none
+  std::string import;             ///< the deck to make a scene of; empty: none
   bool validate = false;          ///< say what the scene says, write nothing
   bool picture = false;           ///< draw the scene, solve nothing
   bool inf_sup = false;           ///< measure the inf-sup constant, write nothing

@@ -4,6 +4,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/memo_table.h>
 #include <hpvi/base/text.h>
+#include <hpvi/reader/deck/deck_mesh.h>
 #include <hpvi/reader/gmsh/drawing_file.h>
 #include <hpvi/reader/gmsh/drawing_kind.h>
 #include <hpvi/reader/gmsh/mesh_complaint.h>
@@ -312,6 +313,14 @@ GmshFile read_drawing(const std::string &path, const unsigned int dim,
   const MeshComplaint complain(path);
   if (kind.has_cells() && request.size > 0)
     complain("is a mesh, of which Mesh size changes nothing; remove it");
+  if (kind.name == "inp")
+  {
+    wanted_unit(kind, request, complain);
+    if (dim == 3)
+      complain("is a deck, of which meshes in the plane are read; save a mesh of Gmsh (.msh), as "
+               "with gmsh -0 -format msh41");
+    return read_deck_mesh(path);
+  }
   if (is_for_own_reader(path, kind))
   {
     wanted_unit(kind, request, complain);

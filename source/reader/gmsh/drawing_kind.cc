@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/reader/deck/deck_cards.h>
 #include <hpvi/reader/gmsh/drawing_kind.h>
 
 #include <algorithm>
@@ -177,6 +178,8 @@ DrawingKind kind_of_drawing(const std::string &path)
     return {"unv", "an UNV file"};
   if (is_bdf(text))
     return {"bdf", "a deck of Nastran"};
+  if (looks_like_deck(text))
+    return {"inp", "a deck of CalculiX or Abaqus"};
   if (std::filesystem::path(path).extension() == ".geo" &&
       text.find("$MeshFormat") == std::string::npos)
     return {"geo", "a script of Gmsh"};

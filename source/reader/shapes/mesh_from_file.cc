@@ -206,7 +206,9 @@ std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh)
           " on a circle of radius " + text(fit->radius, 6) + " around " + to_string(fit->centre) +
           (is_quadratic ? ", and the body parabolas with corners between them"
                         : ", and the body a polygon with corners there") +
-          ": set Boundary " + mesh.boundaries[b] + "/Curve = circle if that is meant");
+          (mesh.boundaries[b].empty()
+               ? ": give it a name and set its Curve = circle if that is meant"
+               : ": set Boundary " + mesh.boundaries[b] + "/Curve = circle if that is meant"));
   }
   return result;
 }
@@ -232,7 +234,7 @@ std::vector<Entry> drawing_entries(const unsigned int dim)
   return {{"Geometry", "File", "", std::make_shared<Patterns::Anything>(), "a file name or nothing",
            std::string(
                "A drawing: STEP, IGES, BREP or a script .geo of Gmsh, which is run as such; or a "
-               "mesh: .msh, .unv, .bdf or .vtk, of ") +
+               "mesh: .msh, .unv, .bdf, .vtk or a deck .inp, of ") +
                (dim == 2 ? "triangles, quadrilaterals or both"
                          : "tetrahedra, prisms and hexahedra with plane faces") +
                "; a path relative to that of the scene."},

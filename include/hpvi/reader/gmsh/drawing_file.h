@@ -30,7 +30,8 @@ struct DrawingLimits
 };
 
 /**
- * The drawing or mesh @p path, by its content: what is text of Gmsh in 4.1, 4.0 or 2.2 by read_gmsh_file(), all else by the
+ * The drawing or mesh @p path, by its content: what is text of Gmsh in 4.1, 4.0 or 2.2 by read_gmsh_file(), a deck by
+ * read_deck_mesh(), all else by the
  * program hpvi_drawing, a process beside this one. Throws InputError of one line, where that dies, too.
  */
 GmshFile read_drawing(const std::string &path, unsigned int dim, const DrawingRequest &request = {},

@@ -10,7 +10,7 @@ namespace hpvi
 struct DrawingKind
 {
   std::string
-      name; ///< step, iges, brep, geo, msh, unv, bdf or vtk; empty: unknown, or for our own reader
+      name; ///< step, iges, brep, geo, msh, unv, bdf, vtk or inp; empty: unknown, or for our own reader
   std::string words; ///< for messages
   double unit = 0;   ///< of a drawing that has one [mm]
   std::string unit_name = {};
