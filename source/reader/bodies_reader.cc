@@ -61,10 +61,12 @@ std::vector<Entry> pair_entries(const std::string &name)
   const auto text = std::make_shared<Patterns::Anything>();
   const std::string section = section_of_pair(name);
   return {
-      {section, "Between", "", text, "two sides BODY.side, BODY.side",
+      {section, "Between", "", text, "two sides BODY.side, BODY.side, or automatic",
        "The two sides of bodies that touch, or parts of sides: of several pairs on one side each "
        "may have its own, a Boundary with On and Where. Normal, tangent and tractions in tables "
-       "are those of the first."},
+       "are those of the first. automatic: all sides of two bodies that lie on each other, or no "
+       "farther apart than Closed within, and that no other pair, support or foundation has, each "
+       "with what this section says; --validate prints the sections to copy."},
       {section, "Law", "unilateral",
        std::make_shared<Patterns::Selection>("unilateral|bilateral|tied|tangential"),
        "unilateral, bilateral, tied or tangential",

@@ -6,6 +6,7 @@
 
 #include <hpvi/base/display_name.h>
 #include <hpvi/base/text.h>
+#include <hpvi/reader/automatic_pairs.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
@@ -432,10 +433,34 @@ UserNames names_in(const ParameterFile &file)
 }
 } // namespace
 
+namespace
+{
+/** With the pairs that `Between = automatic` finds, as if the file named them; @p sections are these. */
+ParameterFile with_pairs(const ParameterFile &given, std::string &sections)
+{
+  ParameterFile file = given;
+  const std::vector<std::string> pairs = automatic_pairs(given.assignments);
+  if (pairs.empty() || body_names(given.assignments).empty())
+    return file;
+  file.assignments = without_pairs(given.assignments, pairs);
+  const UserNames names = names_in<2>(file);
+  const auto parameters = std::make_shared<Parameters>(
+      scene_entries(2, names), scene_aliases(2, names.sides, names.interfaces), file.name);
+  parameters->read(file.assignments);
+  Scene<2> bodies;
+  bodies.parameters = parameters;
+  read_body(*parameters, names, bodies);
+  file.assignments = with_pairs_found(given.assignments, pairs, bodies, sections);
+  return file;
+}
+} // namespace
+
 template <int dim>
-Scene<dim> read_scene(const ParameterFile &written, const SceneUse use,
+Scene<dim> read_scene(const ParameterFile &given, const SceneUse use,
                       const unsigned int n_processes)
 {
+  std::string found_pairs;
+  const ParameterFile written = dim == 2 ? with_pairs(given, found_pairs) : given;
   const std::string &file = written.name;
   const UserNames names = names_in<dim>(written);
   const auto parameters = std::make_shared<Parameters>(
@@ -468,6 +493,8 @@ Scene<dim> read_scene(const ParameterFile &written, const SceneUse use,
   if (scene.error_bound_last && !parameters->is_named("Adaptivity", "Indicator"))
     parameters->set("Adaptivity", "Indicator", "residual");
   scene.loading = loading;
+  if (!found_pairs.empty()) // to be copied from what is printed
+    scene.remarks.push_back("Between = automatic stands for\n" + found_pairs);
   scene.adaptivity.is_default_tolerance = is_default_tolerance;
   check(scene, use);
   if constexpr (dim == 2)

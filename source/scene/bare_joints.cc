@@ -5,6 +5,7 @@
 #include <hpvi/scene/contact_search.h>
 #include <hpvi/scene/exact_side.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hpvi
@@ -49,18 +50,44 @@ std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
  * beside it, too. Where edges have a part in common there is an end of one of them.
  */
 std::optional<Point<2>> common_place(const ExactSide &one, const ExactSide &other,
-                                     const double size)
+                                     const double within)
 {
   const auto touches = [&](const EdgePath &edge, const double s)
   {
     const auto there = other.opposite(edge.point(s), edge.normal(s));
-    return there && std::abs(there->place.distance) <= same_place * size;
+    return there && std::abs(there->place.distance) <= within;
   };
   for (const EdgePath &edge : one.edges())
     for (const double s : {0.5, 0.001, 0.999})
       if (touches(edge, s) && touches(edge, s < 0.5 ? s + 0.01 : s - 0.01))
         return edge.point(s);
   return std::nullopt;
+}
+
+/** An end of an edge of @p one at which the other side is no distance away, and beside which it goes on opposite to the edge. */
+std::optional<Point<2>> common_point(const ExactSide &one, const ExactSide &other,
+                                     const double within)
+{
+  const auto distance = [&](const EdgePath &edge, const double s)
+  {
+    const auto there = other.opposite(edge.point(s), edge.normal(s));
+    return there ? std::abs(there->place.distance) : 1e300;
+  };
+  for (const EdgePath &edge : one.edges())
+    for (const double s : {0., 1.})
+      if (distance(edge, s) <= within && distance(edge, s < 0.5 ? 0.01 : 0.99) <=
+                                             within + 1e-3 * edge.point(0).distance(edge.point(1)))
+        return edge.point(s);
+  return std::nullopt;
+}
+
+using FindPlace = std::optional<Point<2>> (*)(const ExactSide &, const ExactSide &, double);
+
+std::optional<Point<2>> place_of_both(const FindPlace find, const FreeSide &one,
+                                      const FreeSide &other, const double within)
+{
+  const auto at = find(one.drawn, other.drawn, within);
+  return at ? at : find(other.drawn, one.drawn, within);
 }
 } // namespace
 
@@ -76,12 +103,26 @@ std::vector<BareJoint> bare_joints(const Scene<2> &scene)
     {
       if (one.body >= other.body || (one.is_held && other.is_held))
         continue;
-      auto at = common_place(one.drawn, other.drawn, size);
-      if (!at)
-        at = common_place(other.drawn, one.drawn, size);
-      if (at)
+      if (const auto at = place_of_both(common_place, one, other, same_place * size))
         result.push_back({{{one.name, other.name}}, *at});
     }
+  return result;
+}
+
+std::vector<BareJoint> touching_sides(const Scene<2> &scene, const double within)
+{
+  std::vector<BareJoint> result;
+  const double near = std::max(within, same_place * scene.geometry.diameter());
+  const std::vector<FreeSide> sides = sides_without_pair(scene);
+  for (const FreeSide &one : sides)
+    for (const FreeSide &other : sides)
+      if (one.body < other.body)
+        for (const FindPlace find : {common_place, common_point})
+          if (const auto at = place_of_both(find, one, other, near))
+          {
+            result.push_back({{{one.name, other.name}}, *at});
+            break;
+          }
   return result;
 }
 } // namespace hpvi

@@ -84,6 +84,8 @@ invalid "Dimension = 3" "several bodies" -- "Dimension=3"
 for sides in "" "upper.bottom" "upper.bottom, lower.top, lower.left" "upper.bottom; lower.top"; do
   invalid "Contact joint/Between = $sides" "names no two sides" "BODY.side, BODY.side" -- "Contact joint/Between=$sides"
 done
+invalid "Contact joint/Between = automatic" "finds no sides of two bodies that lie on each other" "; name two, or set Closed within" -- \
+  "Contact joint/Between=automatic" "Body upper/Lower corner=1, 1.001"
 for side in bottom upper.inner third.top upper lower.Top; do
   invalid "Contact joint/Between = $side, lower.top" "names $side, which is no side" "this scene has: lower.left, lower.right" -- \
     "Contact joint/Between=$side, lower.top"

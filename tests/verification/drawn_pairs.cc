@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <set>
 
 namespace
 {
@@ -905,6 +906,59 @@ TEST(DrawnPairs, TakePartsOfSides)
     EXPECT_GT(std::abs(sides.energy), 1e-5) << row.name; // that of the fit is negative: loads alone
     EXPECT_NEAR(parts.energy / sides.energy, 1, 1e-9) << row.name;
     EXPECT_EQ(parts.names, row.names) << row.name;
+  }
+}
+
+/** Between = automatic finds what the scenes of prm/ name, one pair after the other; the section stands for all of several. */
+TEST(DrawnPairs, AreFoundWhereSidesLieOnEachOther)
+{
+  struct Row
+  {
+    std::string scene, pair;
+    Overrides more;
+    std::vector<std::string> sides; ///< none: those that the file names
+  };
+  const auto sides_in = [](const std::string &text)
+  {
+    const std::vector<std::string> sides = Utilities::split_string_list(text, ',');
+    return std::set<std::string>(sides.begin(), sides.end());
+  };
+  const Overrides three{given::block("lower", "6, 1", "6, 2"),
+                        given::block("upper", "1, 1", "2, 2", "4, 2"),
+                        given::block("third", "3, 1.001", "4, 2", "4, 2"),
+                        {"Boundary lower.bottom/Displacement", "0; 0"},
+                        {"Boundary upper.top/Displacement", "0; -0.1"},
+                        {"Boundary third.top/Displacement", "0; -0.1"}};
+  for (const Row &row : {Row{"blocks", "joint", {}, {}},
+                         {"bush", "fit", {}, {}},
+                         {"jaws", "left", {}, {}},
+                         {"jaws", "right", {}, {}},
+                         {"lug", "seat", {}, {}},
+                         {"shrink-fit", "fit", {}, {}},
+                         {"ssnp154", "line", {}, {}},
+                         {"stack", "lower joint", {}, {}},
+                         {"", "joint", three, {"lower.top, upper.bottom"}},
+                         {"",
+                          "joint",
+                          joined({three, {{"Contact joint/Closed within", "0.01"}}}),
+                          {"lower.top, upper.bottom", "lower.top, third.bottom"}}})
+  {
+    const std::string file = row.scene.empty() ? "" : "prm/" + row.scene + ".prm",
+                      section = "Contact " + row.pair;
+    Overrides entries{{section + "/Between", "automatic"}};
+    entries.insert(entries.end(), row.more.begin(), row.more.end());
+    const auto found = read_scene<2>(ParameterFile(file, entries));
+    std::set<std::set<std::string>> pairs, expected;
+    if (row.sides.empty())
+      expected.insert(
+          sides_in(read_scene<2>(ParameterFile(file)).parameters->text(section, "Between")));
+    for (const std::string &sides : row.sides)
+      expected.insert(sides_in(sides));
+    for (const std::string &own : found.parameters->sections_with("Between"))
+      if (own.compare(0, section.size(), section) == 0)
+        pairs.insert(sides_in(found.parameters->text(own, "Between")));
+    EXPECT_EQ(pairs, expected) << row.scene << " " << row.pair;
+    EXPECT_NE(found.remarks.back().find("subsection " + section), std::string::npos) << row.scene;
   }
 }
 } // namespace

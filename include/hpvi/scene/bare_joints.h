@@ -22,6 +22,12 @@ struct BareJoint
  * drawing counts: sides are on each other to 1e-9 of the size.
  */
 std::vector<BareJoint> bare_joints(const Scene<2> &scene);
+
+/**
+ * Boundaries of two bodies that lie on each other, or no farther apart than @p within, also where they touch in a point as a roller on a
+ * plane; held or not, but not those of pairs.
+ */
+std::vector<BareJoint> touching_sides(const Scene<2> &scene, double within);
 } // namespace hpvi
 
 #endif
