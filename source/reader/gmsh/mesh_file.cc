@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/text.h>
+#include <hpvi/reader/gmsh/bent_lines.h>
 #include <hpvi/reader/gmsh/cell_checks.h>
 #include <hpvi/reader/gmsh/curve_numbers.h>
 #include <hpvi/reader/gmsh/element_checks.h>
@@ -320,6 +321,7 @@ CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string
   const MeshComplaint complain(path);
   number_groups(file, 2, request, complain);
   check_elements(file, complain);
+  bend_lines(file, request);
   make_quadrilaterals(file, complain);
   return MeshMaker(file, surfaces, request, complain).make();
 }

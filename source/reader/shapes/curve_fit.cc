@@ -222,4 +222,17 @@ std::optional<CircleFit> polygon_for_circle(const CoarseMesh &mesh,
   }
   return std::nullopt;
 }
+
+std::string polygon_words(const std::string &boundary, const CircleFit &fit,
+                          const bool is_quadratic)
+{
+  return "boundary " + (boundary.empty() ? "without a name" : boundary) +
+         (is_quadratic ? " has edges of second order with their nodes"
+                       : " is a polygon with its vertices") +
+         " on a circle of radius " + text(fit.radius, 6) + " around " + to_string(fit.centre) +
+         (is_quadratic ? ", and the body parabolas with corners between them"
+                       : ", and the body a polygon with corners there") +
+         (boundary.empty() ? ": give it a name and set its Curve = circle if that is meant"
+                           : ": set Boundary " + boundary + "/Curve = circle if that is meant");
+}
 } // namespace hpvi

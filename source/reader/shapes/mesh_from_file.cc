@@ -117,6 +117,10 @@ DrawingRequest request_of(const Parameters &parameters, const std::string &prefi
   for (const std::string &section : parameters.sections_with("Curves"))
     if (section.compare(0, start.size(), start) == 0)
       take_curves(section.substr(start.size()), parameters.text(section, "Curves"), request);
+  for (const std::string &section : parameters.sections_with("Curve"))
+    if (const std::string curve = parameters.text(section, "Curve");
+        !curve.empty() && section.compare(0, start.size(), start) == 0)
+      request.bent[section.substr(start.size())] = curve;
   return request;
 }
 
@@ -199,16 +203,7 @@ std::vector<std::string> remarks_on_polygons(const CoarseMesh &mesh)
       is_quadratic = is_quadratic || is_of_second_order;
     }
     if (const auto fit = polygon_for_circle(mesh, of_file))
-      result.push_back(
-          "boundary " + (mesh.boundaries[b].empty() ? "without a name" : mesh.boundaries[b]) +
-          (is_quadratic ? " has edges of second order with their nodes"
-                        : " is a polygon with its vertices") +
-          " on a circle of radius " + text(fit->radius, 6) + " around " + to_string(fit->centre) +
-          (is_quadratic ? ", and the body parabolas with corners between them"
-                        : ", and the body a polygon with corners there") +
-          (mesh.boundaries[b].empty()
-               ? ": give it a name and set its Curve = circle if that is meant"
-               : ": set Boundary " + mesh.boundaries[b] + "/Curve = circle if that is meant"));
+      result.push_back(polygon_words(mesh.boundaries[b], *fit, is_quadratic));
   }
   return result;
 }

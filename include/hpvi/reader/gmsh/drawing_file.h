@@ -18,6 +18,7 @@ struct DrawingRequest
   double curvature = 12; ///< cells per turn of curves
   std::string unit;      ///< of the result; empty: the file's own
   std::map<std::int64_t, std::string> curves = {}; ///< names by the numbers of curves
+  std::map<std::string, std::string> bent = {};    ///< circle or spline, by the names of curves
 };
 
 /** Those that it gives to curves, sorted. */

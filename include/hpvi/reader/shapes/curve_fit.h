@@ -47,6 +47,9 @@ std::string bend_to_splines(CoarseMesh &mesh, const std::vector<unsigned int> &e
  */
 std::optional<CircleFit> polygon_for_circle(const CoarseMesh &mesh,
                                             const std::vector<unsigned int> &edges);
+
+/** The remark on it. */
+std::string polygon_words(const std::string &boundary, const CircleFit &fit, bool is_quadratic);
 } // namespace hpvi
 
 #endif
