@@ -2,10 +2,13 @@
 // What Python sees: classes and their documentation. Everything behind it knows nothing of Python but arrays.
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/version.h>
+#include <hpvi/python/given_arrays.h>
 #include <hpvi/python/result.h>
 #include <hpvi/python/result_class.h>
 #include <hpvi/python/scene_text.h>
+#include <hpvi/reader/gmsh/given_mesh.h>
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <exception>
@@ -73,10 +76,63 @@ std::string path_text(const py::object &path)
   return py::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
 
+using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+/** Whole numbers of an array; fractions are none. */
+Integers integers(const py::handle &values, const std::string &what)
+{
+  const py::array array = py::array::ensure(values);
+  if (!array || (array.size() > 0 && array.dtype().kind() != 'i' && array.dtype().kind() != 'u'))
+    throw py::type_error(what + ": give whole numbers");
+  return Integers(array);
+}
+
+/** Of an array with as many columns, or of a list of rows of several lengths. */
+GivenArrays::Rows rows_of(const py::handle &values, const std::string &what)
+{
+  GivenArrays::Rows rows;
+  for (const py::handle &row : py::list(py::reinterpret_borrow<py::object>(values)))
+  {
+    const Integers one = integers(row, what);
+    if (one.ndim() != 1)
+      throw py::type_error(what + ": give a row of points for each");
+    rows.emplace_back(one.data(), one.data() + one.size());
+  }
+  return rows;
+}
+
+std::shared_ptr<const GivenMesh> make_mesh(const py::object &points, const py::object &cells,
+                                           const py::object &boundaries, const py::object &parts)
+{
+  if (points.is_none() || cells.is_none())
+    throw py::value_error("points and cells: a mesh has both; give both, or a File");
+  GivenArrays arrays;
+  const auto coordinates =
+      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(points);
+  if (!coordinates || coordinates.ndim() != 2)
+    throw py::type_error("points: give an array with a row for each");
+  arrays.dim = coordinates.shape(1);
+  arrays.points.assign(coordinates.data(), coordinates.data() + coordinates.size());
+  arrays.cells = rows_of(cells, "cells");
+  if (!boundaries.is_none())
+    for (const auto &[name, rows] : boundaries.cast<py::dict>())
+      arrays.boundaries[py::str(name)] = rows_of(rows, "boundaries");
+  if (!parts.is_none())
+    for (const auto &[name, numbers] : parts.cast<py::dict>())
+    {
+      const Integers own = integers(numbers, "parts");
+      arrays.parts[py::str(name)].assign(own.data(), own.data() + own.size());
+    }
+  return std::make_shared<const GivenMesh>(mesh_of_arrays(arrays));
+}
+
 /** The file, the entries or both, in either place: Scene(entries) reads as well as Scene(file, entries). */
-SceneText make_scene(const py::object &file, const py::object &entries)
+SceneText make_scene(const py::object &file, const py::object &entries, const py::object &points,
+                     const py::object &cells, const py::object &boundaries, const py::object &parts)
 {
   SceneText scene;
+  if (!(points.is_none() && cells.is_none() && boundaries.is_none() && parts.is_none()))
+    scene.mesh = make_mesh(points, cells, boundaries, parts);
   const bool has_no_file = py::isinstance<py::dict>(file);
   if (!has_no_file && !file.is_none())
     scene.file = path_text(file);
@@ -224,8 +280,18 @@ void add_scene(py::module_ &module)
 
 Entries are those of a scene file, and so are their names and defaults. Values are texts, numbers,
 True or False, and tuples: components and points, or tuples of these. A scene is checked when it is
-asked or solved: InputError.)")
-      .def(py::init(&make_scene), py::arg("file") = py::none(), py::arg("entries") = py::none())
+asked or solved: InputError.
+
+    Scene(entries, points=X, cells=C, boundaries={"left": edges}, parts={"steel": numbers})
+
+A mesh of arrays, in the place of a file: X has a row of 2 coordinates for each point, or 3 in
+space; C the points of each cell, counted from 0: 3 or 4 corners around it, or 6, 8 or 9 with
+middles of edges; in space 4, 6 or 8. boundaries are edges by their ends, faces by their corners;
+without them those between corners of the boundary have numbers. parts are surfaces, volumes in
+space, by numbers of cells. Geometry is of this mesh, or each Body that names no File.)")
+      .def(py::init(&make_scene), py::arg("file") = py::none(), py::arg("entries") = py::none(),
+           py::kw_only(), py::arg("points") = py::none(), py::arg("cells") = py::none(),
+           py::arg("boundaries") = py::none(), py::arg("parts") = py::none())
       .def(
           "__setitem__",
           [](SceneText &scene, const std::string &path, const py::object &value)

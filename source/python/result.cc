@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/text.h>
 #include <hpvi/driver/load_history.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/forces_table.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
+#include <hpvi/output/result_directory.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/python/result.h>
+#include <hpvi/reader/deck/deck_mesh.h>
+#include <hpvi/reader/gmsh/given_mesh.h>
 #include <hpvi/reader/scene_reader.h>
 #include <hpvi/results/values_at.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -363,12 +368,34 @@ std::shared_ptr<Result> run(const ParameterFile &file, const std::string &direct
   }
   return result;
 }
+
+/** Beside the results, whose scene.prm names it. Not before the scene is known to be one, and not over what is another's. */
+std::string written_mesh(const SceneText &scene, const std::string &directory)
+{
+  scene.title();
+  const std::filesystem::path path = std::filesystem::absolute(directory) / "mesh.msh";
+  const std::string mesh = mesh_text(scene.mesh->file);
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && content_of(path) != mesh)
+    throw InputError("output directory '" + printable(directory, 400) +
+                     "': has another mesh.msh; choose another one");
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (!error)
+    error = write_whole(path, mesh, path.string() + ".part");
+  if (error)
+    throw OutputFailure("output directory '" + printable(directory, 400) +
+                        "': mesh.msh cannot be written: " + error.message());
+  return path.lexically_normal().string();
+}
 } // namespace
 
 std::shared_ptr<Result> solve(const SceneText &scene, const std::string &directory,
                               const Listener &listener)
 {
-  const ParameterFile file(scene.file, scene.entries);
+  SceneText own = scene;
+  if (own.mesh && !directory.empty())
+    own.mesh_file = written_mesh(own, directory);
+  const ParameterFile file = own.read();
   return (scene_dimension(file) == 3 ? run<3> : run<2>)(file, directory, listener);
 }
 

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/display_name.h>
 #include <hpvi/base/text.h>
 #include <hpvi/output/scene_picture.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/python/scene_text.h>
 #include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/gmsh/given_mesh.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_reader.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <set>
 
 namespace hpvi
 {
@@ -21,7 +26,7 @@ namespace
 template <class Ask>
 auto ask_scene(const SceneText &text, const Ask &ask)
 {
-  const ParameterFile file(text.file, text.entries);
+  const ParameterFile file = text.read();
   if (scene_dimension(file) == 3)
     return ask(read_scene<3>(file));
   return ask(read_scene<2>(file));
@@ -62,6 +67,29 @@ const std::vector<Entry> &entries_of_kinds()
   return all;
 }
 } // namespace
+
+ParameterFile SceneText::read() const
+{
+  ParameterFile all(file, entries);
+  if (!mesh)
+    return all;
+  std::vector<std::string> sections, with_file;
+  for (const Assignment &one : all.assignments)
+    if (one.section == "Geometry" ||
+        (one.section.compare(0, 5, "Body ") == 0 && one.section != "Body force"))
+      (one.name == "File" ? with_file : sections).push_back(one.section);
+  if (sections.empty() && with_file.empty())
+    sections.push_back("Geometry");
+  const std::string where = display_name(file) + " (points and cells)";
+  for (const std::string &section : std::set<std::string>(sections.begin(), sections.end()))
+    if (std::find(with_file.begin(), with_file.end(), section) == with_file.end())
+    {
+      all.assignments.push_back({section, "Shape", "file", where});
+      all.assignments.push_back(
+          {section, "File", mesh_file.empty() ? mesh->name : mesh_file, where});
+    }
+  return all;
+}
 
 void SceneText::set(const std::string &path, const std::string &value)
 {

@@ -224,6 +224,87 @@ class Scenes(unittest.TestCase):
             self.assertEqual(numbers(hpvi.Scene(file).solve()), numbers(hpvi.Scene(BAR).solve()))
 
 
+class Arrays(Case):
+    """Meshes of points and cells."""
+
+    r, angle = np.meshgrid(np.linspace(1, 2, 3), np.linspace(0, np.pi / 2, 5))
+    points = np.stack([(r * np.cos(angle)).ravel(), (r * np.sin(angle)).ravel()], axis=-1)
+    number = np.arange(15).reshape(5, 3)
+    cells = np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1).reshape(-1, 4)
+
+    @staticmethod
+    def along(line):
+        return np.stack([line[:-1], line[1:]], axis=-1)
+
+    def ring(self, cells):
+        boundaries = {"inner": self.along(self.number[:, 0]), "outer": self.along(self.number[:, 2]),
+                      "start": self.along(self.number[0]), "end": self.along(self.number[-1])}
+        return hpvi.Scene({"Material": {"Young's modulus": 1, "Poisson's ratio": 0.3}, "Boundary inner": {"Pressure": 1, "Curve": "circle"},
+                           "Boundary outer": {"Curve": "circle"}, "Boundary start": {"Symmetry": True}, "Boundary end": {"Symmetry": True},
+                           "Adaptivity/Tolerance": 1e-7}, points=self.points, cells=cells, boundaries=boundaries)
+
+    def test_cells_of_any_kind_are_lames_ring(self):
+        triangles = np.concatenate([self.cells[:, :3], self.cells[:, [0, 2, 3]]])
+        mixture = [*self.cells[:4].tolist(), *triangles[4:8], *triangles[12:].tolist()]
+        exact = 1.3 * (0.4 + 4) / 3
+        for cells in (self.cells, triangles, mixture, self.cells.astype(np.uint8)):
+            ring = self.ring(cells)
+            self.assertAlmostEqual(ring.solve().u(np.array([1., 0]))[0], exact, delta=1e-6)
+            ring["Boundary outer/Curve"] = ""
+            self.assertIn("boundary outer is a polygon with its vertices on a circle of radius 2 around (0, 0)", ring.describe())
+
+    def test_the_mesh_is_written_beside_results(self):
+        scene = self.ring(self.cells)
+        one = scene.solve(output=self.home / "out")
+        self.assertEqual(numbers(hpvi.Scene(self.home / "out/scene.prm").solve()), numbers(one))
+        scene.solve(output=self.home / "out")
+        (self.home / "out/mesh.msh").write_text("another")
+        with self.assertRaisesRegex(hpvi.InputError, "has another mesh.msh; choose another one"):
+            scene.solve(output=self.home / "out")
+        self.assertEqual(numbers(self.ring(self.cells).solve()), numbers(one))
+
+    def test_parts_are_bodies(self):
+        points = [[x, y] for y in (0, 1) for x in (0, 1, 2)] + [[x, y] for y in (1, 2) for x in (0, 1, 2)]
+        cells = [[a + b, a + b + 1, a + b + 4, a + b + 3] for a in (0, 6) for b in (0, 1)]
+        blocks = hpvi.Scene({"Body low/Surfaces": "low", "Body high/Surfaces": "high", "Contact joint/Between": "automatic",
+                             "Contact joint/Friction bound": 0.001, "Boundary low.base/Displacement": (0, 0), "Boundary high.top/Displacement": (0.1, -0.1)},
+                            points=points, cells=cells, parts={"low": [0, 1], "high": [2, 3]},
+                            boundaries={"base": [[0, 1], [1, 2]], "roof": [[3, 4], [4, 5]], "foot": [[6, 7], [7, 8]], "top": [[9, 10], [10, 11]]})
+        self.assertIn("low.roof, high.foot", blocks.describe())
+        self.assertAlmostEqual(blocks.solve().forces["Fx"][0], -0.002, delta=1e-9)
+
+    def test_edges_without_names_have_numbers(self):
+        square = hpvi.Scene({"Boundary 4/Symmetry": True, "Boundary 1/Symmetry": True}, points=[[0, 0], [1, 0], [1, 1], [0, 1]], cells=[[0, 1, 2, 3]])
+        self.assertIn("boundary 3", square.describe())
+
+    def test_space(self):
+        points = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1, 2)]
+        cells = [[k, k + 1, k + 4, k + 3, k + 6, k + 7, k + 10, k + 9] for k in (0, 1)]
+        bar = hpvi.Scene({"Dimension": 3, "Boundary left/Displacement": (0, 0, 0), "Boundary right/Traction": (1, 0, 0)}, points=points, cells=cells,
+                         boundaries={"left": [[0, 3, 9, 6]], "right": [[2, 5, 11, 8]]})
+        self.assertIn("2 coarse cells", bar.describe())
+
+    def test_what_is_wrong_is_said(self):
+        square, one = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]]
+        for words, arrays in (("the cell 0 has the point 4, and there are 4; count points from 0", {"cells": [[1, 2, 3, 4]]}),
+                              ("the cell 0 has 5 points; give 3 or 4", {"cells": [[0, 1, 2, 3, 0]]}),
+                              ("the point 1 is at .*; give finite numbers", {"points": [[0, 0], [np.nan, 0], [1, 1], [0, 1]]}),
+                              ("has 1 coordinates a point; give 2", {"points": [[0], [1], [2], [3]]}),
+                              ("boundaries: left has 3 points in a row; give the two ends", {"boundaries": {"left": [[0, 1, 2]]}}),
+                              ("boundaries: left has the point -1", {"boundaries": {"left": [[0, -1]]}}),
+                              ("parts: steel has the cell 1, and there are 1; count", {"parts": {"steel": [1]}}),
+                              ("parts: .* has the cell 0, which another part has, too; give", {"parts": {"steel": [0], "brass": [0]}})):
+            with self.subTest(words), self.assertRaisesRegex(hpvi.InputError, words):
+                hpvi.Scene(**{"points": square, "cells": one, **arrays})
+        with self.assertRaisesRegex(hpvi.InputError, "mesh [0-9]+: .*"):
+            hpvi.Scene({"Boundary left/Pressure": 1}, points=square, cells=[[0, 1, 3, 2]], boundaries={"left": [[0, 3]]}).solve()
+        for arrays in ({"cells": [[0., 1, 2, 3]]}, {"points": "no"}, {"cells": 3}, {"boundaries": {"left": [0, 1]}}):
+            with self.subTest(arrays), self.assertRaises(TypeError):
+                hpvi.Scene(**{"points": square, "cells": one, **arrays})
+        with self.assertRaises(ValueError):
+            hpvi.Scene(points=square)
+
+
 class Errors(Case):
     def test_exceptions_have_the_line_of_the_program(self):
         missing = str(self.home / "none.prm")

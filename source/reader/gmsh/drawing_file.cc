@@ -7,6 +7,7 @@
 #include <hpvi/reader/deck/deck_mesh.h>
 #include <hpvi/reader/gmsh/drawing_file.h>
 #include <hpvi/reader/gmsh/drawing_kind.h>
+#include <hpvi/reader/gmsh/given_mesh.h>
 #include <hpvi/reader/gmsh/mesh_complaint.h>
 #include <hpvi/reader/gmsh/polynomial_edge.h>
 #include <hpvi/reader/gmsh/quadratic_edge.h>
@@ -19,6 +20,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <tuple>
 #include <unordered_map>
@@ -309,6 +311,8 @@ std::vector<std::string> names_of_curves(const DrawingRequest &request)
 GmshFile read_drawing(const std::string &path, const unsigned int dim,
                       const DrawingRequest &request, const DrawingLimits &limits)
 {
+  if (const std::optional<GmshFile> given = given_mesh(path))
+    return *given;
   const DrawingKind kind = kind_of_drawing(path);
   const MeshComplaint complain(path);
   if (kind.has_cells() && request.size > 0)

@@ -31,7 +31,7 @@ struct DrawingLimits
 };
 
 /**
- * The drawing or mesh @p path, by its content: what is text of Gmsh in 4.1, 4.0 or 2.2 by read_gmsh_file(), a deck by
+ * The drawing or mesh @p path, or the GivenMesh of that name, by its content: what is text of Gmsh in 4.1, 4.0 or 2.2 by read_gmsh_file(), a deck by
  * read_deck_mesh(), all else by the
  * program hpvi_drawing, a process beside this one. Throws InputError of one line, where that dies, too.
  */
