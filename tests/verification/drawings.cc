@@ -5,6 +5,8 @@
 #include <hpvi/reader/gmsh/hexahedral_file.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
+#include <deal.II/opencascade/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -216,5 +218,18 @@ TEST(Drawings, OfSolidsBecomeHexahedra)
   EXPECT_TRUE(
       says(failure_of<InputError>([&]() { read_hexahedral_file(folder.write("flat.geo", base)); }),
            "has no solid; draw one, or set Dimension = 2"));
+}
+
+/** IGES, which Gmsh cannot write: the tools of deal.II make it of the STEP file. */
+TEST(Drawings, AreReadFromIges)
+{
+  const Folder folder;
+  folder.draw(ring + saved({"ring.step"}));
+  OpenCASCADE::write_IGES(OpenCASCADE::read_STEP(folder("ring.step"), 1), folder("ring.iges"));
+  const CoarseMesh mesh = read_mesh_file(folder("ring.iges"));
+  EXPECT_EQ(mesh.origin.find("an IGES file, lengths in "), 0) << mesh.origin;
+  EXPECT_NEAR(area_of(mesh), ring_area, 1e-12);
+  EXPECT_NEAR(area_of(mesh), area_of_cells(mesh), 1e-12);
+  EXPECT_EQ(mesh.boundaries.size(), 4);
 }
 } // namespace

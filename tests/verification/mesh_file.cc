@@ -197,9 +197,6 @@ std::vector<Flaw> flaws_of_elements()
       flaw("loose line", "4 1 2 7 3 3 6", "4 1 2 7 3 3 4",
            ":37: the physical curve \"7\" has 1 edge of no cell, the first from (2, 0) to (0, 1); "
            "let"),
-      flaw("two groups", "4 1 2 7 3 3 6", "4 1 2 7 3 1 2",
-           "the edge from (0, 0) to (1, 0) is in two physical groups, curve \"bottom\" and curve "
-           "\"7\""),
       flaw("inside and outside", "4 1 2 7 3 3 6", "4 1 2 4 3 3 6",
            "the physical curve \"joint\" has 1 edge on the boundary and 1 between two cells, the "
            "first "
@@ -232,7 +229,6 @@ std::vector<Flaw> flaws_of_places()
       flaw("straight corner", "\n4 0 1 0\n", "\n4 0 -1 0\n", "degrees at"),
       flaw("no angle", "\n4 0 1 0\n", "\n4 0.5 0.5 0\n",
            "the cell has a corner of 180 degrees at (0.5, 0.5)"),
-      flaw("reflex", "\n4 0 1 0\n", "\n4 0.8 0.1 0\n", "degrees at (0.8, 0.1)"),
       flaw("crossed", "5 3 2 1 1 1 2 5 4", "5 3 2 1 1 1 5 2 4", "the cell has a corner of"),
       flaw("large", "\n3 2 0 0\n", "\n3 1e200 0 0\n", "lengths must lie between 1e-100 and 1e100"),
       flaw("not finite", "\n3 2 0 0\n", "\n3 nan 0 0\n",
@@ -269,12 +265,6 @@ std::vector<Flaw> flaws_of_names()
       flaw("same", "1 4 \"joint\"", "1 7 \"Bottom\"", "in case alone"),
       flaw("quotes", "\"stiff\"", "stiff", "no dimension, tag and name in quotes"),
       flaw("twice", "2 2 \"stiff\"", "2 1 \"stiff\"", "a physical group has a second name here"),
-      flaw_41(
-          "in two", "2 1 0 0 2 0 0 1 3 2 2 -3", "2 1 0 0 2 0 0 2 3 7 2 2 -3",
-          "the curve 2 of Gmsh is in two physical groups, curve \"bottom\" and curve \"7\"; take"),
-      flaw_41("surface in two", "1 0 0 0 1 1 0 1 1 0", "1 0 0 0 1 1 0 2 1 2 0",
-              "the surface 1 of Gmsh is in two physical groups, surface \"soft part\" and surface "
-              "\"stiff\""),
   };
 }
 
@@ -349,6 +339,31 @@ void expect_refused(const std::vector<Flaw> &flaws)
 TEST(MeshFile, RefusesElements)
 {
   expect_refused(flaws_of_elements());
+}
+
+/** A corner of more than 180 degrees is no flaw: its cell is cut along the diagonal from there, and all others with it. */
+TEST(MeshFile, CutsConcaveCells)
+{
+  const CoarseMesh mesh = read_text(replaced(two_squares_22, "\n4 0 1 0\n", "\n4 0.8 0.1 0\n"));
+  EXPECT_EQ(mesh.cells.size(), 10);
+  const auto tells = [](const std::string &remark)
+  { return remark.find("1 cell with a corner of 180 degrees or more") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(mesh.remarks.begin(), mesh.remarks.end(), tells));
+}
+
+/** A curve in two groups is in the smaller one, of equal ones in the first; two groups of one name are one. */
+TEST(MeshFile, TakesTheSmallerOfTwoGroups)
+{
+  const auto boundaries = [](const std::string &text) { return read_text(text).boundaries; };
+  const std::vector<std::string> plain = boundaries(two_squares_41);
+  EXPECT_EQ(boundaries(
+                replaced(two_squares_41, "2 1 0 0 2 0 0 1 3 2 2 -3", "2 1 0 0 2 0 0 2 3 7 2 2 -3")),
+            plain);
+  EXPECT_EQ(
+      read_text(replaced(two_squares_41, "1 0 0 0 1 1 0 1 1 0", "1 0 0 0 1 1 0 2 1 2 0")).surfaces,
+      read_text(two_squares_41).surfaces);
+  // Two edges of group 3 and one of 7: the first edge of 3 is in both.
+  EXPECT_EQ(boundaries(replaced(two_squares_22, "4 1 2 7 3 3 6", "4 1 2 7 3 1 2")), plain);
 }
 
 TEST(MeshFile, RefusesPlaces)

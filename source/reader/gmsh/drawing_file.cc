@@ -2,6 +2,7 @@
 #include <hpvi/base/child_process.h>
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/input_error.h>
 #include <hpvi/base/memo_table.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/deck/deck_mesh.h>
@@ -257,6 +258,17 @@ bool is_for_own_reader(const std::string &path, const DrawingKind &kind)
   return !is_old && !has_bytes && content.find("$PartitionedEntities") == std::string::npos;
 }
 
+/** Elements of the plane that our own reader leaves out. */
+bool has_higher_order(const GmshFile &file)
+{
+  return std::any_of(file.elements.begin(), file.elements.end(),
+                     [](const GmshFile::Element &element)
+                     {
+                       const ElementKind kind = element_kind(element.type);
+                       return kind.n_nodes == 0 && kind.dim < 3;
+                     });
+}
+
 std::string number(const double x)
 {
   std::ostringstream words;
@@ -271,11 +283,14 @@ GmshFile from_helper(const std::string &path, const unsigned int dim, const Draw
   const MeshComplaint complain(path);
   check_ending(path, kind, complain);
   const double unit = wanted_unit(kind, request, complain);
+  // Gmsh 4.8 cannot tell OpenCASCADE the unit of an IGES file before it has read one: it comes in mm.
+  const bool is_in_mm = kind.name == "iges";
+  const double own = is_in_mm ? 1 : kind.unit;
   const ChildEnd end =
       run_child({helper_path(), kind.name, path, std::to_string(dim), number(request.size),
-                 number(request.curvature), number(unit > 0 ? kind.unit / unit : 1.),
-                 kind.unit > 0 ? kind.occ_unit() : "-", number(std::ceil(limits.seconds)),
-                 number(limits.megabytes)},
+                 number(request.curvature), number(unit > 0 ? own / unit : 1.),
+                 kind.unit > 0 && !is_in_mm ? kind.occ_unit() : "-",
+                 number(std::ceil(limits.seconds)), number(limits.megabytes)},
                 limits.seconds);
   check_end(end, limits, complain);
   GmshFile file = DrawingReader(end.output, dim == 2).read();
@@ -328,7 +343,17 @@ GmshFile read_drawing(const std::string &path, const unsigned int dim,
   if (is_for_own_reader(path, kind))
   {
     wanted_unit(kind, request, complain);
-    return read_gmsh_file(path);
+    GmshFile own = read_gmsh_file(path);
+    if (dim == 3 || !has_higher_order(own))
+      return own;
+    try
+    {
+      return from_helper(path, dim, request, kind, limits);
+    }
+    catch (const InputError &)
+    {
+      return own; // whose line is told
+    }
   }
   static std::map<Key, GmshFile> known;
   const Key key(std::filesystem::absolute(path).string(), std::filesystem::last_write_time(path),

@@ -88,6 +88,7 @@ public:
       read_entities();
     has_blocks ? read_node_blocks() : read_nodes();
     has_blocks ? read_element_blocks() : read_elements();
+    unite_groups();
     return std::move(file);
   }
 
@@ -129,6 +130,9 @@ private:
       for (std::size_t n = numbers[dim]; n > 0; --n)
         read_entity(records, dim);
     records.finish();
+    for (const auto &[entity, groups] : entities)
+      for (const std::int64_t group : groups)
+        ++n_entities[{entity.first, group}];
   }
 
   void read_entity(GmshRecords &records, const unsigned int dim)
@@ -138,21 +142,38 @@ private:
     const std::int64_t n = records.integer(groups);
     if (n < 0 || std::uint64_t(n) > records.n_words() - groups - 1)
       records.damaged("the entity announces more physical groups than the line has");
-    std::int64_t group = 0;
+    std::vector<std::int64_t> all;
     for (std::int64_t k = 1; k <= n; ++k)
-    {
-      const std::int64_t other = std::abs(records.integer(groups + k)); // negative: turned round
-      if (dim > 0 && group != 0 && other != group)
-        text.complain(std::string(dim == 1   ? "the curve "
-                                  : dim == 2 ? "the surface "
-                                             : "the volume ") +
-                      std::to_string(records.integer(0)) + " of Gmsh is in two physical groups, " +
-                      file.words({dim, group}) + " and " + file.words({dim, other}) +
-                      "; take it out of one");
-      group = other;
-    }
-    if (!entities.insert({{dim, records.integer(0)}, group}).second)
+      all.push_back(std::abs(records.integer(groups + k))); // negative: turned round
+    if (!entities.insert({{dim, records.integer(0)}, all}).second)
       records.damaged("an entity of this dimension and tag is there already");
+  }
+
+  /** Of several groups the one with the fewest entities, of equal ones the first. */
+  std::int64_t group_of(const std::int64_t dim, const std::vector<std::int64_t> &groups) const
+  {
+    const auto best = std::min_element(
+        groups.begin(), groups.end(),
+        [&](const std::int64_t a, const std::int64_t b) {
+          return std::pair(n_entities.at({dim, a}), a) < std::pair(n_entities.at({dim, b}), b);
+        });
+    return best == groups.end() ? 0 : *best;
+  }
+
+  /** Two groups of one name are one. */
+  void unite_groups()
+  {
+    std::map<std::pair<unsigned int, std::string>, std::int64_t> first;
+    for (auto named = file.names.begin(); named != file.names.end();)
+    {
+      const auto [dim, tag] = named->first;
+      const auto [same, is_new] = first.insert({{dim, named->second}, tag});
+      if (!is_new)
+        for (GmshFile::Element &element : file.elements)
+          if (element.group == tag && element_kind(element.type).dim == dim)
+            element.group = same->second;
+      named = is_new ? std::next(named) : file.names.erase(named);
+    }
   }
 
   void add_node(const GmshRecords &records, const std::int64_t tag, const std::size_t first_word)
@@ -284,13 +305,15 @@ private:
     if (entity == entities.end() && text.has("Entities"))
       records.damaged("the block belongs to an entity of dimension " + std::to_string(dim) +
                       " and tag " + std::to_string(tag) + " that $Entities lacks");
-    return entity == entities.end() ? 0 : entity->second;
+    return entity == entities.end() ? 0 : group_of(dim, entity->second);
   }
 
   const GmshText text;
   GmshFile file;
-  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> entities; ///< their physical groups
-  std::unordered_map<std::int64_t, unsigned int> indices;                 ///< of nodes, by tag
+  /** Their physical groups, and how many entities each of these has. */
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>> entities;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> n_entities;
+  std::unordered_map<std::int64_t, unsigned int> indices; ///< of nodes, by tag
 };
 } // namespace
 

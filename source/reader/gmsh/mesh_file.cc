@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -183,6 +184,10 @@ private:
     if (std::all_of(file.elements.begin(), file.elements.end(), is_cell))
       return numbered_edges(edges);
     std::vector<std::int64_t> groups(edges.all().size(), 0);
+    std::map<std::int64_t, std::size_t> n_lines;
+    for (const GmshFile::Element &element : file.elements)
+      if (!is_cell(element))
+        ++n_lines[element.group];
     for (const GmshFile::Element &element : file.elements)
     {
       if (is_cell(element) || element.group == 0)
@@ -192,12 +197,9 @@ private:
       const unsigned int e = edge_between(edges, element.nodes[0], element.nodes[1]);
       if (e == CoarseMesh::inside)
         continue;
-      if (groups[e] != 0 && groups[e] != element.group)
-        complain.at(element.line, "the edge " + edge_in_words(mesh, edges.all()[e].vertices) +
-                                      " is in two physical groups, " + file.words({1, groups[e]}) +
-                                      " and " + file.words({1, element.group}) +
-                                      "; take its curve out of one");
-      groups[e] = element.group;
+      // Of two groups, as in files of 2.2, the one with fewer lines has it.
+      if (groups[e] == 0 || n_lines.at(element.group) < n_lines.at(groups[e]))
+        groups[e] = element.group;
     }
     return groups;
   }

@@ -26,6 +26,28 @@ Ends ends_of(const unsigned int a, const unsigned int b)
   return {{std::min(a, b), std::max(a, b)}};
 }
 
+/** The corner of more than 180 degrees of a quadrilateral with straight edges that has one; 4: it has none, or crosses itself. */
+unsigned int concave_corner(const GmshFile &file, const Element &cell)
+{
+  const auto place = [&](const unsigned int k)
+  {
+    const Point<3> &at = file.nodes[cell.nodes[k % 4]].at;
+    return Point<2>(at[0], at[1]);
+  };
+  const auto across = [&](const unsigned int k) // sine of the corner times both edges
+  {
+    const Tensor<1, 2> out = place(k + 1) - place(k), in = place(k + 3) - place(k);
+    return (out[0] * in[1] - out[1] * in[0]) / (out.norm() * in.norm());
+  };
+  const double hair = 1e-3;
+  for (const double sign : {1., -1.}) // clockwise cells are turned round later
+    for (unsigned int k = 0; k < 4; ++k)
+      if (sign * across(k) < -hair && sign * across(k + 1) > hair && sign * across(k + 2) > hair &&
+          sign * across(k + 3) > hair)
+        return k;
+  return 4;
+}
+
 class Cutter
 {
 public:
@@ -87,7 +109,8 @@ private:
       what = text(n_triangles) + (n_triangles == 1 ? " triangle" : " triangles");
     if (n_flat > 0)
       what += (what.empty() ? "" : " and ") + text(n_flat) +
-              (n_flat == 1 ? " cell with a corner" : " cells with a corner") + " of 180 degrees";
+              (n_flat == 1 ? " cell with a corner" : " cells with a corner") +
+              " of 180 degrees or more";
     file.remarks.push_back(
         "of " + text(n_before) + " cells, among them " + what + ", " + text(n_after) +
         " quadrilaterals were made, " + text(double(n_after) / n_before, 2) + " times as many" +
@@ -178,7 +201,7 @@ private:
       if (degrees > least || degrees < least - 360 + 20)
         return k;
     }
-    return n;
+    return n == 4 ? concave_corner(file, cell) : n;
   }
 
   /** Of whole meshes that hang together by edges. */
@@ -347,7 +370,11 @@ void make_quadrilaterals(GmshFile &file, const MeshComplaint &complain)
                                             const ElementKind kind = element_kind(element.type);
                                             return kind.n_nodes > kind.n_corners;
                                           });
-  if (!has_others && (has_triangles || has_curves))
+  const bool has_concave =
+      std::any_of(file.elements.begin(), file.elements.end(),
+                  [&](const Element &element)
+                  { return element.type == 3 && concave_corner(file, element) < 4; });
+  if (!has_others && (has_triangles || has_curves || has_concave))
     Cutter(file, complain).cut();
 }
 } // namespace hpvi

@@ -67,7 +67,7 @@ struct GmshFile
 
 /**
  * Read the mesh file @p path of Gmsh, format 4.1, 4.0 or 2.2 in ASCII. Throws InputError of one line for one that is
- * missing, binary, damaged, or has a curve or surface in two physical groups.
+ * missing, binary or damaged. Of a curve or surface in two physical groups the smaller one counts.
  */
 GmshFile read_gmsh_file(const std::string &path);
 } // namespace hpvi
