@@ -14,6 +14,7 @@
 #include <hpvi/driver/column_width.h>
 #include <hpvi/driver/limits.h>
 #include <hpvi/driver/marking.h>
+#include <hpvi/driver/strides.h>
 #include <hpvi/driver/thickness.h>
 #include <hpvi/driver/threads.h>
 #include <hpvi/plane/global_cell_indices.h>
@@ -329,13 +330,49 @@ Refinement AdaptiveSolver<dim>::mark() const
   StageTimer timer(backend->times.decide);
   const auto &known = known_bound().bound ? known_bound().bound : known_bound().estimate;
   const bool by_bound = scene.adaptivity.indicator == Indicator::bound && known;
-  Refinement refinement =
-      hpvi::mark(scene.adaptivity, backend->degrees(),
-                 by_bound ? known->indicators() : of_all_cells(estimate, backend->field()),
-                 [&](const unsigned int cell) { return backend->decay_rate(cell); });
+  const std::vector<double> eta =
+      by_bound ? known->indicators() : of_all_cells(estimate, backend->field());
+  const auto decay_rate = [&](const unsigned int cell) { return backend->decay_rate(cell); };
+  Refinement refinement = hpvi::mark(scene.adaptivity, backend->degrees(), eta, decay_rate);
   if (scene.adaptivity.method != Method::pu)
     backend->mark_unresolved(refinement);
+  if constexpr (dim == 2)
+    if (scene.adaptivity.method == Method::hpa4)
+    {
+      const Field<2> &field = backend->field();
+      const Degrees degrees = backend->degrees();
+      const auto contact = contact_states(field);
+      refinement =
+          stride({scene, field.dof_handler.get_triangulation(), degrees, eta, decay_rate, contact},
+                 part_of_next_step(), refinement,
+                 [&](const Triangulation<2> &mesh, const Degrees &of_mesh, Refinement &marks)
+                 { backend->keep_bound(mesh, of_mesh, marks); });
+    }
   return refinement;
+}
+
+/** Of the error, the part that hpa4 aims at. */
+template <int dim>
+double AdaptiveSolver<dim>::part_of_next_step() const
+{
+  const Adaptivity &limits = scene.adaptivity;
+  const PastStep<dim> &step = history.back();
+  double needed = limits.tolerance;
+  if (needed > 0)
+  {
+    double error = step.relative_estimate;
+    const bool on_width = !limits.tolerance_column.empty();
+    if (on_width || limits.tolerance_on == Indicator::bound)
+      for (auto past = history.rbegin() + 1; past < history.rend(); ++past)
+        if (const double known = on_width ? past->relative_half_width : past->relative_bound;
+            std::isfinite(known))
+        {
+          error *= known / past->relative_estimate;
+          break;
+        }
+    needed = std::min(1., needed / error);
+  }
+  return part_of_stride(needed);
 }
 
 // @sect3{Refine}
@@ -579,7 +616,9 @@ void AdaptiveSolver<dim>::conclude(StepReport<dim> &step)
   const std::vector<StressSample<dim>> samples = stress_samples(step.field);
   std::vector<StressSample<dim>> growing = growing_extrema(extrema);
   // The mesh comes from load steps before; on one process, for peaks of others are not known alike on all.
-  if (backend->refinement_history().size() >= history.size() &&
+  // So do many layers of a stride in few steps.
+  if ((backend->refinement_history().size() >= history.size() ||
+       scene.adaptivity.method == Method::hpa4) &&
       n_processes(backend->communicator) == 1)
     for (const StressSample<dim> &peak : extrema_of_rings(step.extrema, samples, step.field))
       if (std::none_of(growing.begin(), growing.end(),

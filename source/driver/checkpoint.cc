@@ -54,7 +54,9 @@ void write_marks(std::ostream &out, const MeshMarks &marks)
     out << ' ' << cell - last << ' ' << degree;
     last = cell;
   }
-  out << '\n';
+  out << ' ' << marks.then.size() << '\n';
+  for (const MeshMarks &next : marks.then)
+    write_marks(out, next);
 }
 
 /** What lasts from load step to load step. */
@@ -221,6 +223,8 @@ public:
       cell += number<unsigned int>();
       result.changed.emplace_back(cell, number<unsigned int>());
     }
+    for (unsigned int n = number<unsigned int>(); n > 0; --n)
+      result.then.push_back(marks());
     return result;
   }
 

@@ -129,6 +129,8 @@ Refinement mark(const Adaptivity &adaptivity, const Degrees &degrees,
     raise_where_smooth(result, above_share_of_maximum(eta, adaptivity.hpa3_threshold), decay_rate,
                        adaptivity.hpa3_decay, maximum);
     break;
+  case Method::hpa4: // stride()
+    break;
   }
   return result;
 }

@@ -405,6 +405,16 @@ void ReducedBackend<dim>::mark_unresolved(Refinement &refinement) const
   discretisation->spaces->keep_bound(scene, refinement);
 }
 
+/** Where it asks for more than the mesh at hand tells: spaces of one that nobody solves on. */
+template <int dim>
+void ReducedBackend<dim>::keep_bound(const Triangulation<dim> &of, const Degrees &degrees,
+                                     Refinement &refinement) const
+{
+  if (scene.has_pairs() && scene.error_bound)
+    Spaces<dim>(scene, borrowed(of), degrees, kept->tables, loads, past_slip)
+        .keep_bound(scene, refinement);
+}
+
 // @sect3{Refine}
 //
 // A copy of the mesh, for less than a hundredth of a step, so that every solution keeps its own.

@@ -242,7 +242,8 @@ bool Refinement::is_empty(const Degrees &old_degrees) const
   return degrees == old_degrees && std::find(bisect.begin(), bisect.end(), true) == bisect.end();
 }
 
-MeshMarks::MeshMarks(const Refinement &refinement, const Degrees &degrees) : n_cells(degrees.size())
+MeshMarks::MeshMarks(const Refinement &refinement, const Degrees &degrees)
+    : n_cells(degrees.size()), then(refinement.then)
 {
   for (unsigned int cell = 0; cell < n_cells; ++cell)
     if (refinement.bisect[cell])
@@ -258,7 +259,7 @@ bool MeshMarks::fits(const Degrees &degrees) const
 
 Refinement MeshMarks::refinement(const Degrees &degrees) const
 {
-  Refinement result{std::vector<bool>(degrees.size()), degrees};
+  Refinement result{std::vector<bool>(degrees.size()), degrees, then};
   for (const auto &[cell, degree] : changed)
     if (degree == 0)
       result.bisect[cell] = true;
@@ -286,6 +287,11 @@ Degrees refine_mesh(Triangulation<dim> &triangulation, const Degrees &degrees,
                                                  ? refinement.degrees[cell->user_index() - 1]
                                                  : degrees[cell->parent()->user_index() - 1];
   set_edge_degrees(triangulation, new_degrees);
+  for (const MeshMarks &marks : refinement.then)
+  {
+    AssertThrow(marks.fits(new_degrees), ExcMessage("The marks are those of another mesh."));
+    new_degrees = refine_mesh(triangulation, new_degrees, marks.refinement(new_degrees));
+  }
   return new_degrees;
 }
 

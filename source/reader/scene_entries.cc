@@ -106,9 +106,13 @@ void add_method_entries(std::vector<Entry> &entries)
         "hup2, hup3, hup4: bisect every cell, p = 2, 3, 4. hap2, hap3, hap4: bisect cells with "
         "large indicator. pu: raise p everywhere. hpa1: bisect the first cells by indicator, raise "
         "p on the next. hpa2: bisect or raise p by the decay of Legendre coefficients. hpa3: "
-        "the same where the indicator exceeds a share of the largest."},
+        "the same where the indicator exceeds a share of the largest. hpa4: hpa3 in strides, each "
+        "to "
+        "a tenth of the error or to the tolerance: several layers and degrees at once, by what is "
+        "expected of cells."},
        {section, "Smoothness reading", "joint", one_of(reading_names), "plain or joint",
-        "How hpa2 and hpa3 read the decay rate (4.81): joint: one fit of the scaled Euclidean norm "
+        "How hpa2, hpa3 and hpa4 read the decay rate (4.81): joint: one fit of the scaled "
+        "Euclidean norm "
         "over the displacement components, whatever the frame; plain: one fit per component, the "
         "smaller slope."},
        {section, "Indicator", "bound", one_of(indicator_names), "residual or bound",
@@ -116,7 +120,7 @@ void add_method_entries(std::vector<Entry> &entries)
         "indicator where there is none. residual: the indicator eta_K (4.50)."},
        {section, "Start degree", "0", matching(Patterns::Integer(0, 20)), "an integer from 0 to 20",
         "Degree of every cell of the coarse mesh; 0: the method's own (hupN, hapN: N; pu, hpa1: 2; "
-        "hpa2, hpa3: 3)."},
+        "hpa2, hpa3, hpa4: 3)."},
        {section, "Maximum degree", "12", degree, "an integer from 1 to 20",
         "Cells of this degree are bisected where p would rise."},
        {section, "hap threshold", "0.5", fraction, "a number in (0, 1]",

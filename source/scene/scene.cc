@@ -123,6 +123,7 @@ unsigned int own_start_degree(const Method method)
   case Method::hap3:
   case Method::hpa2:
   case Method::hpa3:
+  case Method::hpa4:
     return 3;
   case Method::hup4:
   case Method::hap4:

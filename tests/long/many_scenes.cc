@@ -94,8 +94,8 @@ Scene<2> scene(const unsigned int number)
                                    "semicoercive", "smooth", "threshold"});
   const bool has_own_bound = name == "stick-slip" || name == "plane-strain" || name == "smooth";
   std::vector<std::pair<std::string, std::string>> overrides = {
-      {"Adaptivity/Method",
-       chosen({"hup2", "hup3", "hup4", "hap2", "hap3", "hap4", "pu", "hpa1", "hpa2", "hpa3"})},
+      {"Adaptivity/Method", chosen({"hup2", "hup3", "hup4", "hap2", "hap3", "hap4", "pu", "hpa1",
+                                    "hpa2", "hpa3", "hpa4"})},
       {"Adaptivity/Start degree", "0"},
       {"Adaptivity/Maximum steps", std::to_string(1 + random() % 10)},
       {"Adaptivity/Maximum unknowns", "1000"},

@@ -113,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         Run{"exact", "stick-slip", {{"Exact solution/Transition", "0.1"}}},
         Run{"strain", "plane-strain", {}}, Run{"free", "semicoercive", {}},
         Run{"mprgp", "han-6-12", {{"Solver/QP solver", "mprgp"}, {"Adaptivity/Method", "hpa3"}}},
+        Run{"strides", "hertz", {{"Adaptivity/Method", "hpa4"}}},
         Run{"cold", "han-6-12", {{"Solver/QP warm start", "false"}, {"Adaptivity/Method", "hap2"}}},
         // Which stress the bound is made of depends on the steps before.
         Run{"incompressible",

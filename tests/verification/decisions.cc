@@ -412,8 +412,8 @@ TEST_F(Marking, DefaultsAreTheNumbersOfTheThesis)
 TEST_F(Marking, EveryMethodStartsAtItsOwnDegree)
 {
   const std::vector<std::pair<std::string, unsigned int>> degrees = {
-      {"hup2", 2}, {"hup3", 3}, {"hup4", 4}, {"hap2", 2}, {"hap3", 3},
-      {"hap4", 4}, {"pu", 2},   {"hpa1", 2}, {"hpa2", 3}, {"hpa3", 3}};
+      {"hup2", 2}, {"hup3", 3}, {"hup4", 4}, {"hap2", 2}, {"hap3", 3}, {"hap4", 4},
+      {"pu", 2},   {"hpa1", 2}, {"hpa2", 3}, {"hpa3", 3}, {"hpa4", 3}};
   for (const auto &[name, degree] : degrees)
     EXPECT_EQ(shipped_scene("han-6-13", {{"Adaptivity/Method", name}}).adaptivity.start_degree,
               degree)
@@ -491,6 +491,26 @@ TEST(RefineMesh, CellsAreEitherBisectedOrRaised)
   EXPECT_EQ(degrees[cell_at(mesh, {0.2, 0.7})], 4u);
   EXPECT_EQ(degrees[cell_at(mesh, {0.6, 0.1})], 3u);
   EXPECT_EQ(degrees[cell_at(mesh, {0.2, 0.2})], 3u);
+}
+
+/** A stride is its marks one after the other. */
+TEST(RefineMesh, GoesOnWithWhatFollows)
+{
+  Triangulation<2> mesh, alike;
+  GridGenerator::subdivided_hyper_rectangle(mesh, {2, 1}, Point<2>(0, 0), Point<2>(2, 1));
+  alike.copy_triangulation(mesh);
+  const Refinement first{{true, false}, {3, 6}};
+  const Degrees between = refine_mesh(alike, {3, 5}, first);
+  Refinement second{std::vector<bool>(5, false), between};
+  second.bisect[cell_at(alike, {0.2, 0.2})] = true;
+  second.degrees[cell_at(alike, {0.7, 0.7})] = 7;
+  const Degrees in_two = refine_mesh(alike, between, second);
+  Refinement both = first;
+  both.then.emplace_back(second, between);
+  EXPECT_EQ(MeshMarks(both, {3, 5}).refinement({3, 5}).then.size(), 1u);
+  EXPECT_EQ(refine_mesh(mesh, {3, 5}, both), in_two);
+  EXPECT_EQ(mesh.n_active_cells(), alike.n_active_cells());
+  EXPECT_EQ(in_two[cell_at(mesh, {0.7, 0.7})], 7u);
 }
 
 TEST(RefineMesh, LeavesMeshAndDegreesAloneWhereNothingIsMarked)

@@ -74,7 +74,7 @@ std::vector<Case> cases()
 {
   std::vector<Case> result;
   for (const std::string method :
-       {"hap2", "pu", "hpa1", "hpa3"}) // others have no code of their own
+       {"hap2", "pu", "hpa1", "hpa3", "hpa4"}) // others have no code of their own
     result.push_back(
         {method, "han-6-12", {{"Adaptivity/Method", method}, {"Adaptivity/Start degree", "0"}}});
   result.push_back({"bar", "han-6-13", {}});

@@ -90,6 +90,7 @@ private:
   BoundOfStep bound_of_step() const;
   const BoundOfStep &known_bound() const;
   Refinement mark() const;
+  double part_of_next_step() const;
   PastStep<dim> past_step() const;
   StepReport<dim> decide_and_report();
   void solve_next_beside(const std::function<void()> &report);

@@ -132,6 +132,11 @@ public:
   /** Bisects what no indicator can see. */
   virtual void mark_unresolved(Refinement &refinement) const = 0;
 
+  /** Adds to @p refinement of a mesh with these degrees what the bound of the next step needs of it. */
+  virtual void keep_bound(const dealii::Triangulation<dim> &, const Degrees &, Refinement &) const
+  {
+  }
+
   /** Does the discrete problem see all that it is known to be given: loads, strains, springs, gaps, displacements, friction? Collective. */
   virtual bool resolves_data() = 0;
 

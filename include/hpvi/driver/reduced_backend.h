@@ -76,6 +76,8 @@ public:
   }
 
   void mark_unresolved(Refinement &refinement) const override;
+  void keep_bound(const dealii::Triangulation<dim> &of, const Degrees &degrees,
+                  Refinement &refinement) const override;
   bool resolves_data() override
   {
     return missing.empty() && unresolved.empty() && missed_displacements.empty() &&

@@ -35,14 +35,7 @@ borrowed(const dealii::Triangulation<dim> &triangulation)
   return {std::shared_ptr<const dealii::Triangulation<dim>>(), &triangulation};
 }
 
-/** What to do with each cell, by active cell index. */
-struct Refinement
-{
-  std::vector<bool> bisect;
-  Degrees degrees; ///< after raising p; cells that are bisected do not use theirs
-
-  bool is_empty(const Degrees &old_degrees) const; ///< does nothing change?
-};
+struct Refinement;
 
 /** A Refinement by what it changes: no larger than its marks are, and told without the mesh. */
 struct MeshMarks
@@ -50,6 +43,7 @@ struct MeshMarks
   unsigned int n_cells = 0; ///< of the mesh that is refined
   /** Cells in the order of their indices with their new degrees, 0 where they are bisected. */
   std::vector<std::pair<unsigned int, unsigned int>> changed;
+  std::vector<MeshMarks> then; ///< those of Refinement
 
   MeshMarks() = default;
   MeshMarks(const Refinement &refinement, const Degrees &degrees);
@@ -61,10 +55,20 @@ struct MeshMarks
   Refinement refinement(const Degrees &degrees) const;
 };
 
+/** What to do with each cell, by active cell index. */
+struct Refinement
+{
+  std::vector<bool> bisect;
+  Degrees degrees;                  ///< after raising p; cells that are bisected do not use theirs
+  std::vector<MeshMarks> then = {}; ///< one after the other, of the meshes that come of it
+
+  bool is_empty(const Degrees &old_degrees) const; ///< does nothing change?
+};
+
 /**
  * Carry out @p refinement with deal.II's 2:1 closure; returns the degrees of the new cells.
  * A cell is either bisected or raised: where the closure bisects a cell that was to be raised, its
- * children keep the old degree. So the thesis's tables want it (doc/chapter5.md).
+ * children keep the old degree. So the thesis's tables want it (doc/chapter5.md). Then what follows.
  */
 template <int dim>
 Degrees refine_mesh(dealii::Triangulation<dim> &triangulation, const Degrees &degrees,

@@ -12,8 +12,8 @@
 namespace hpvi
 {
 /** In the order of the enumerators of Method. */
-inline const std::vector<std::string> method_names = {"hup2", "hup3", "hup4", "hap2", "hap3",
-                                                      "hap4", "pu",   "hpa1", "hpa2", "hpa3"};
+inline const std::vector<std::string> method_names = {
+    "hup2", "hup3", "hup4", "hap2", "hap3", "hap4", "pu", "hpa1", "hpa2", "hpa3", "hpa4"};
 
 /** In the order of the enumerators of SmoothnessReading, Indicator, QpSolver, Contact, NormalContact,
     CoulombMethod, LoadAdaptivity, SolutionPath, LinearMethod, FrictionForm. */
