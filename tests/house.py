@@ -40,7 +40,7 @@ EVALUATIONS = {
     "source/plane/initial_stress.cc": 3, "source/plane/missed_loads.cc": 1,
     "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 2,
     "source/bound/data_error.cc": 2, "source/bound/displacement_lift.cc": 1, "source/bound/joint_lift.cc": 1,
-    "source/bound/joint_tractions.cc": 1, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":
+    "source/bound/joint_tractions.cc": 2, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":
     1, "source/bound/row_stresses.cc": 4, "source/results/contact_residuals.cc": 1,
     "source/results/contact_state.cc": 2, "source/results/elastic_strain.cc": 1,
     "source/results/residual_estimator.cc": 4, "source/results/true_error.cc": 3, "source/results/unseen_contact.cc":
