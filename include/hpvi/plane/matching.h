@@ -44,9 +44,9 @@ struct FaceDofs
 template <int dim>
 std::string no_error_bound(const Scene<dim> &scene);
 
-/** Where faces of two bodies do not match, vertex to vertex and with equal degrees: one such place in words; else empty. */
+/** Do faces of two bodies match everywhere, vertex to vertex and with equal degrees? */
 template <int dim>
-std::string unmatched_joint(const ContactSpace<dim> &contact_space);
+bool all_match(const ContactSpace<dim> &contact_space);
 
 /** Do meshes not match, or is contact along a curve or another direction than the normal? Then JointTractions give what contact exerts. */
 template <int dim>
