@@ -170,15 +170,18 @@ private:
     return result->bow() > 1e-10 ? CurvePiece{result, 0, 1} : CurvePiece();
   }
 
-  /** Of the edge from a node to another at the first. */
-  Tensor<1, 2> direction(const unsigned int from, const unsigned int to) const
+  /** Of the edge from a node to another at the first, or, of one that is cut, of the chord to its middle. */
+  Tensor<1, 2> direction(const unsigned int from, const unsigned int to,
+                         const bool by_halves = false) const
   {
     const CurvePiece piece = curve(from, to);
-    return piece ? piece.derivative(0) : place(to) - place(from);
+    if (!piece)
+      return place(to) - place(from);
+    return by_halves ? piece.point(0.5) - place(from) : piece.derivative(0);
   }
 
   /** The corner where two edges are one smooth curve, or one line; n_corners: there is none. */
-  unsigned int flat_corner(const Element &cell) const
+  unsigned int flat_corner(const Element &cell, const bool by_halves = false) const
   {
     // Of files each cell that was taken as it is stays so; cells of our own may be better.
     const double least = file.is_drawing ? 170 : 179.9;
@@ -194,8 +197,8 @@ private:
       const unsigned int before = cell.nodes[(k + n - 1) % n], after = cell.nodes[(k + 1) % n];
       if (!curve(cell.nodes[k], before) && !curve(cell.nodes[k], after))
         continue; // of straight edges own checks know more
-      const Tensor<1, 2> in = direction(cell.nodes[k], before),
-                         out = direction(cell.nodes[k], after);
+      const Tensor<1, 2> in = direction(cell.nodes[k], before, by_halves),
+                         out = direction(cell.nodes[k], after, by_halves);
       const double turn = std::atan2(out[0] * in[1] - out[1] * in[0], out * in) * 180 / numbers::PI;
       const double degrees = area > 0 ? turn : -turn;
       if (degrees > least || degrees < least - 360 + 20)
@@ -288,7 +291,9 @@ private:
 
   void cut_cell(const Element &cell)
   {
-    const unsigned int n = n_corners(cell), flat = flat_corner(cell);
+    // Cells that are cut have their corners checked by chords.
+    const unsigned int n = n_corners(cell), by_tangents = flat_corner(cell),
+                       flat = by_tangents < n ? by_tangents : flat_corner(cell, n == 4);
     if (n == 4 && flat < 4)
       for (const unsigned int k : {flat, (flat + 2) % 4})
       {
