@@ -37,7 +37,6 @@ check 'Material/Young\'"'"'s\ modulus=' hpvi --set material/yo
 check 'Boundary\ bottom/Friction\ bound=' hpvi prm/slab.prm --set 'Boundary\ bo'
 check 'Boundary bottom/Friction bound=' hpvi prm/slab.prm --set '"Boundary bo'
 check 'Adaptivity/Method=hap4|!Adaptivity/Method=hpa3' hpvi prm/slab.prm --set '"Adaptivity/Method='
-check 'Adaptivity/Method=hpa3|Adaptivity/Method=hpa4' hpvi --set Adaptivity/Method=hpa
 check '!Material/Density=a' hpvi --set Material/Density=
 check 'prm/slab.prm|!prm/meshes/foot.msh' hpvi prm/sl
 check 'doc|!README.md' hpvi --output do

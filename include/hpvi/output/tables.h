@@ -2,6 +2,7 @@
 #ifndef hpvi_tables_h
 #define hpvi_tables_h
 
+#include <hpvi/driver/finished_loads.h>
 #include <hpvi/driver/step_report.h>
 #include <hpvi/output/record.h>
 
