@@ -17,7 +17,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double round_off = 1e-12; ///< of the largest displacement
+constexpr double round_off = 1e-12; ///< of the largest displacement, and of the gap
 
 /** A polynomial of degree below n by its values. */
 template <class Function>
@@ -279,7 +279,7 @@ void JointLift::set_change(Piece &piece, const double sign, const unsigned int c
   const EdgePolynomial left = piece.jump[c] + change;
   for (const unsigned int end : {0, 1})
     if (const double by = piece.modes[c] == exact ? std::abs(left(end)) : left(end);
-        by > round_off * size)
+        by > round_off * std::max(size, piece.jump[c].largest()))
       set_flaw(piece, by);
   if (piece.modes[c] == exact)
   {

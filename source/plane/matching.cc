@@ -91,6 +91,8 @@ std::vector<bool> nested_cells(const ContactSpace<dim> &contact_space, const uns
   for (const ContactFace<dim> &face : contact_space.faces())
     for (const ContactSegment<dim> &segment : face.segments)
     {
+      if (segment.drawn) // given tractions are as near there
+        return std::vector<bool>(n_cells);
       const auto [begin, end] = std::minmax(segment.at_begin, segment.at_end);
       const bool fills_own = segment.end - segment.begin >= 1. - same_on_edge,
                  fills_opposite = end - begin >= 1. - same_on_edge;
@@ -171,7 +173,8 @@ void keep_matching(const ContactSpace<dim> &contact_space, const Triangulation<d
 {
   std::vector<std::pair<unsigned int, unsigned int>> joints; // cells
   for (const ContactFace<dim> &face : contact_space.faces())
-    if (const ContactSegment<dim> *const opposite = whole_face_opposite(face))
+    if (const ContactSegment<dim> *const opposite = whole_face_opposite(face);
+        opposite && !opposite->drawn)
       joints.emplace_back(face.cell->active_cell_index(), opposite->cell->active_cell_index());
   if (joints.empty())
     return;
