@@ -208,7 +208,8 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
   const std::vector<std::string> sides =
       Utilities::split_string_list(parameters.text(section, "Between"), ',');
   if (sides.size() != 2)
-    parameters.reject(section, "Between", "names no two sides; give BODY.side, BODY.side, or automatic");
+    parameters.reject(section, "Between",
+                      "names no two sides; give BODY.side, BODY.side, or automatic");
   PairSides pair{name, section, {}, {}, {}, {}};
   for (const unsigned int k : {0, 1})
     pair.sides[k] = side_called(parameters, section, sides[k], all, singles);
