@@ -154,19 +154,6 @@ void set_energy(ErrorBound &result, const EquilibratedStress &stress, const Cont
   result.energy_below = result.energy + unknown - centre;
 }
 
-/** J(u_N) counts friction along curves by another rule than the bound does, and the difference is not known. */
-bool rubs_along_curves(const Solution<2> &solution)
-{
-  const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
-  return std::any_of(faces.begin(), faces.end(),
-                     [](const ContactFace<2> &face)
-                     {
-                       return !face.friction.vanishes() &&
-                              (face.map.is_curved() ||
-                               (!face.segments.empty() && face.segments[0].drawn));
-                     });
-}
-
 /** Under Coulomb's law no energy is least. */
 void set_no_energy(ErrorBound &result)
 {
@@ -505,8 +492,6 @@ try
     set_radius(result, stress, contact.in_norms, data);
     set_energy(result, stress, contact.in_energy, contact.change, data);
     result.moved_by_energy = contact.in_energy.energies;
-    if (joints && rubs_along_curves(solution))
-      set_no_energy(result);
   }
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, made->pressure, data, stress.has_rows());

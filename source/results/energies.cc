@@ -84,8 +84,11 @@ double friction_work(const FieldFace<2> &face, const Field<2> &field, double)
     {
       const double width = cuts[k + 1] - cuts[k], s = cuts[k] + width * gauss.point(q)[0];
       const Point<2> reference = point_on_face<2>(face.face_no, Point<1>(s));
-      sum += width * gauss.weight(q) * field.scene.circumference(face.map.point(reference)) *
-             field.bound(face, reference) * std::abs(u_t(s));
+      const double stretch = // of ds along a curve
+          face.map.is_curved() ? face.map.face_measure(face.face_no, reference) / face.area() : 1.;
+      sum += stretch * width * gauss.weight(q) *
+             field.scene.circumference(face.map.point(reference)) * field.bound(face, reference) *
+             std::abs(u_t(s));
     }
   return face.area() * sum;
 }

@@ -121,8 +121,8 @@ std::vector<PressurePoint<dim>> pressure_points(const FieldFace<dim> &face, cons
 }
 
 /**
- * u_N in one direction along a straight contact face, the polynomial through its values at p+1 Gauss points; where another
- * body lies opposite, less what that one does.
+ * u_N in one direction along a contact face: along a straight one the polynomial through its values at p+1 Gauss points, along a curve, where
+ * the direction turns, that of each component; where another body lies opposite, less what that one does.
  */
 template <int dim>
 class EdgeDisplacement
@@ -138,10 +138,13 @@ public:
     const std::vector<double> values = evaluate(table.values, field.coefficients(face.cell));
     for (unsigned int k = 0; k < nodal.size(); ++k)
     {
-      const FaceFrame<dim> frame = face.frame(table.points[k]);
-      const dealii::Tensor<1, dim> &direction = is_tangential ? frame.tangents[0] : frame.normal;
+      const dealii::Tensor<1, dim> direction = direction_at(table.points[k]);
       for (unsigned int c = 0; c < dim; ++c)
-        nodal[k] += direction[c] * values[c * nodal.size() + k];
+      {
+        const double value = values[c * nodal.size() + k];
+        components[c].push_back(value);
+        nodal[k] += direction[c] * value;
+      }
     }
   }
 
@@ -149,22 +152,35 @@ public:
   void subtract_past(const FieldFace<dim> &face, const Field<dim> &field)
   {
     for (unsigned int k = 0; k < nodal.size(); ++k)
-      nodal[k] -= field.past_slip(face, face.map.point(table.points[k]));
+    {
+      const double slip = field.past_slip(face, face.map.point(table.points[k]));
+      nodal[k] -= slip;
+      past.push_back(slip);
+    }
   }
 
   /** At reference coordinate s in [0,1] of the face. */
   double operator()(const double s) const
   {
-    double sum = 0;
-    for (unsigned int k = 0; k < nodal.size(); ++k)
-      sum += nodal[k] * basis[k].value(s);
-    if (!face.condition->pair)
-      return sum;
     const dealii::Point<dim> reference =
         point_on_face<dim>(face.face_no, dealii::Point<dim - 1>(s));
-    const FaceFrame<dim> frame = face.frame(reference);
-    return sum -
-           (is_tangential ? frame.tangents[0] : frame.normal) * field.opposite(face, reference);
+    double sum = 0;
+    if (face.map.is_curved())
+    {
+      const dealii::Tensor<1, dim> direction = direction_at(reference);
+      for (unsigned int k = 0; k < nodal.size(); ++k)
+      {
+        double value = past.empty() ? 0. : -past[k];
+        for (unsigned int c = 0; c < dim; ++c)
+          value += direction[c] * components[c][k];
+        sum += value * basis[k].value(s);
+      }
+    }
+    else
+      for (unsigned int k = 0; k < nodal.size(); ++k)
+        sum += nodal[k] * basis[k].value(s);
+    return face.condition->pair ? sum - direction_at(reference) * field.opposite(face, reference)
+                                : sum;
   }
 
 private:
@@ -174,6 +190,14 @@ private:
   const FieldFace<dim> &face;
   const Field<dim> &field;
   const bool is_tangential;
+  std::array<std::vector<double>, dim> components; ///< of u_N at the points of the table
+  std::vector<double> past;                        ///< slip there, if it is subtracted
+
+  dealii::Tensor<1, dim> direction_at(const dealii::Point<dim> &reference) const
+  {
+    const FaceFrame<dim> frame = face.frame(reference);
+    return is_tangential ? frame.tangents[0] : frame.normal;
+  }
 };
 } // namespace hpvi
 
