@@ -27,4 +27,13 @@ std::string error_in_words(const std::string &kind, const std::string &size, con
     return "about " + size + ", estimated";
   return "at most " + size + ", guaranteed";
 }
+
+std::string terms_in_words(const std::string &kind, const double coupling)
+{
+  if (kind == "coupling")
+    return "bounded, coupling at most " + at_most(coupling);
+  if (kind == "zones")
+    return "if zones are as said, coupling at most " + at_most(coupling);
+  return "guaranteed";
+}
 } // namespace hpvi

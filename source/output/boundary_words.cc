@@ -241,8 +241,10 @@ std::string friction_in_words(const Scene<dim> &scene, const FrictionLaw<dim> &f
   const std::string bound =
       range_in_words(values_at<dim>(points, [&](const auto &x) { return friction.bound_at(x); }),
                      scene.stress_unit);
-  const std::string coefficient = range_in_words(
-      values_at<dim>(points, [&](const auto &x) { return friction.coefficient_at(x); }), "");
+  const std::string coefficient =
+      range_in_words(
+          values_at<dim>(points, [&](const auto &x) { return friction.coefficient_at(x); }), "") +
+      (friction.by_pressure ? " (less under pressure)" : "");
   if (!friction.coefficient)
     return "friction bound " + bound;
   if (!friction.bound)

@@ -2,7 +2,7 @@
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/version.h>
 #include <hpvi/output/complete_run.h>
-#include <hpvi/output/run_files.h>
+#include <hpvi/output/json_tree.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/reader/scene_reader.h>
 

@@ -20,7 +20,18 @@ void add(Record &record, const std::string &name, const Measured &number)
 
 std::string name_of(const ForceKind kind)
 {
-  return kind == ForceKind::support ? "support" : kind == ForceKind::contact ? "contact" : "load";
+  switch (kind)
+  {
+  case ForceKind::support:
+    return "support";
+  case ForceKind::contact:
+    return "contact";
+  case ForceKind::load:
+    return "load";
+  case ForceKind::pretension:
+    return "pretension";
+  }
+  return {};
 }
 } // namespace
 

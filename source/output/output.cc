@@ -5,10 +5,8 @@
 #include <hpvi/output/complete_run.h>
 #include <hpvi/output/contact_line.h>
 #include <hpvi/output/contact_table.h>
-#include <hpvi/output/mesh_picture.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/probe_table.h>
-#include <hpvi/output/report.h>
 #include <hpvi/output/vtu.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_reader.h>
@@ -38,13 +36,11 @@ std::string names_written(const Scene<dim> &scene, const unsigned int n_processe
   const OutputSettings &output = scene.output;
   return results::always + (scene.has_load_history() ? "|" + results::loading : "") +
          (output.contact && scene.has_contact() ? "|" + results::contact : "") +
-         (dim == 2 && output.mesh_picture ? "|" + results::mesh : "") +
          (!output.vtu        ? ""
           : n_processes == 1 ? "|" + results::vtu
                              : "|" + results::pieces) +
          (output.vtu && scene.has_contact() ? "|" + results::contact_line : "") +
          (output.reference ? "|" + results::reference : "") +
-         (output.report ? "|" + results::report : "") +
          (std::any_of(scene.probes.begin(), scene.probes.end(),
                       [](const Probe<dim> &probe) { return probe.kind == ProbeKind::line; })
               ? "|" + results::probe
@@ -68,9 +64,6 @@ step_files(const Scene<dim> &scene, const StepReport<dim> &step, const unsigned 
     files.emplace_back(probe_file(scene, line, step.number), csv(probe_rows(line)));
   if (output.contact && scene.has_contact())
     add("contact", ".csv", csv(contact_rows(scene, step.contact)));
-  if constexpr (dim == 2)
-    if (output.mesh_picture && n_processes == 1)
-      add("mesh", ".svg", mesh_picture(step));
   if (output.vtu && scene.has_contact())
     add("contact", ".vtu", contact_line(scene, step.contact, step.number, step.history.contact));
   if (output.vtu && n_processes == 1)
@@ -444,23 +437,9 @@ void Output<dim>::write_state()
     write("state.dat", state);
 }
 
-/**
- * It says what summary.json is about to say, but for the seconds that it takes: equal runs have equal pages. Known by its
- * head: it is listed when it is there.
- */
-template <int dim>
-void Output<dim>::write_report()
-{
-  if (!scene.output.report || summary.steps == 0)
-    return;
-  const StageTimer timer(summary.seconds_of_report);
-  write("report.html", report(scene, path, summary.json(scene, {})));
-  directory->add("report.html");
-}
-
 /** The state comes after all else: there is nothing to finish where it says that nothing is left to do. */
 template <int dim>
-double Output<dim>::finish()
+void Output<dim>::finish()
 {
   summary.status = RunStatus::done;
   write_together(communicator,
@@ -468,11 +447,9 @@ double Output<dim>::finish()
                  {
                    if (!is_first)
                      return;
-                   write_report();
                    write_summary();
                    write_state();
                  });
-  return summary.seconds_of_report;
 }
 
 template <int dim>
@@ -482,13 +459,6 @@ void Output<dim>::give_up(const RunStatus status, const std::string &message)
   summary.message = message;
   if (!directory)
     return;
-  try
-  {
-    write_report();
-  }
-  catch (const std::exception &) // the message itself is what the user has to hear of
-  {
-  }
   directory->write("summary.json", summary.json(scene, directory->files()));
 }
 

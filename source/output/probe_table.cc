@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
 #include <hpvi/driver/column_width.h>
+#include <hpvi/output/boundary_words.h>
 #include <hpvi/output/probe_table.h>
 #include <hpvi/output/result_directory.h>
 
@@ -78,10 +81,43 @@ std::vector<Record> probe_rows(const ProbeLine<dim> &line)
   return rows;
 }
 
+namespace
+{
+template <int dim>
+std::string in_words(const Probe<dim> &probe, const std::string &length_unit)
+{
+  switch (probe.kind)
+  {
+  case ProbeKind::point:
+    return "at " + to_string(probe.at);
+  case ProbeKind::disc:
+    return "mean over the disc of radius " + with_unit(probe.size, length_unit) + " about " +
+           to_string(probe.at);
+  case ProbeKind::boundary:
+    return "mean along " + probe.side;
+  case ProbeKind::line:
+    return text(probe.n_points) + " points from " + to_string(probe.from) + " to " +
+           to_string(probe.to);
+  }
+  return {};
+}
+} // namespace
+
+template <int dim>
+std::string probes_in_words(const Scene<dim> &scene)
+{
+  std::string lines;
+  for (const Probe<dim> &probe : scene.probes)
+    lines += "probe " + probe.name + ": " + in_words(probe, scene.length_unit) + "\n";
+  return lines;
+}
+
 template Record probe_record(const StepReport<2> &);
 template Record probe_record(const StepReport<3> &);
 template std::string probe_file(const Scene<2> &, const ProbeLine<2> &, unsigned int);
 template std::string probe_file(const Scene<3> &, const ProbeLine<3> &, unsigned int);
 template std::vector<Record> probe_rows(const ProbeLine<2> &);
 template std::vector<Record> probe_rows(const ProbeLine<3> &);
+template std::string probes_in_words(const Scene<2> &);
+template std::string probes_in_words(const Scene<3> &);
 } // namespace hpvi

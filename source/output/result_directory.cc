@@ -2,8 +2,8 @@
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
+#include <hpvi/output/json_tree.h>
 #include <hpvi/output/result_directory.h>
-#include <hpvi/output/run_files.h>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -56,7 +56,7 @@ struct EarlierRun
   std::string scene; ///< its file
 };
 
-/** Is it a picture or a report that says that this program has made it? */
+/** Is it a picture, its data or a report that says that this program has made it? */
 bool names_its_maker(const fs::path &file)
 {
   std::error_code ignored;
@@ -64,7 +64,8 @@ bool names_its_maker(const fs::path &file)
   if (fs::is_regular_file(fs::symlink_status(file, ignored)))
     std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
   return begin.rfind("<!-- " + results::picture_head, 0) == 0 ||
-         begin.rfind("<!-- " + results::report_head, 0) == 0;
+         begin.rfind("<!-- " + results::report_head, 0) == 0 ||
+         begin.rfind(results::scene_head, 0) == 0;
 }
 
 /** Which of @p names has this program written, and for which scene? */
@@ -214,7 +215,7 @@ ResultDirectory::ResultDirectory(const std::string &directory, const std::string
   for (const std::string &name : names)
   {
     const bool is_picture = std::regex_match(name, picture),
-               says_so = is_picture || name == "report.html";
+               says_so = is_picture || name == "report.html" || name == "scene.json";
     if (says_so && names_its_maker(path / name))
       own.add(name);
     else if (says_so)
@@ -309,7 +310,8 @@ std::vector<std::string> ResultDirectory::remove_after(const unsigned int step,
   {
     std::smatch match;
     const unsigned long number = std::regex_match(name, match, pattern) ? std::stoul(match[1]) : 0;
-    if (number > 0 ? !kept(number) : name == "reference.dat" || name == "report.html")
+    if (number > 0 ? !kept(number)
+                   : name == "reference.dat" || name == "report.html" || name == "scene.json")
       stale.insert(name);
     else if (number == step)
       of_step.push_back(name);

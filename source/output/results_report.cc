@@ -4,6 +4,7 @@
 #include <hpvi/output/bound_words.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
+#include <hpvi/output/pretension_report.h>
 #include <hpvi/output/record.h>
 #include <hpvi/output/results_report.h>
 
@@ -32,34 +33,43 @@ std::string interval_in_words(const Interval &interval)
 
 namespace
 {
-void add(std::string &words, const std::string &what, const Measured &number)
+/** With what it rests on, of a step that has a bound. */
+template <int dim>
+std::string interval_of(const StepReport<dim> &step, const Interval &interval)
 {
-  if (number.interval)
-    words += what + " " + interval_in_words(*number.interval) + " (guaranteed)\n";
+  return interval_in_words(interval) + " (" +
+         terms_in_words(text(step.bound->kind), step.equilibrated.coupling) + ")";
 }
 
 /** Those of forces that have any. */
 template <int dim>
-std::string intervals_in_words(const std::vector<Resultant<dim>> &forces)
+std::string intervals_in_words(const StepReport<dim> &step)
 {
   std::string words;
-  for (const Resultant<dim> &row : forces)
+  const auto add = [&](const std::string &what, const Measured &number)
+  {
+    if (number.interval)
+      words += what + " " + interval_of(step, *number.interval) + "\n";
+  };
+  for (const Resultant<dim> &row : step.forces)
   {
     for (unsigned int d = 0; d < dim; ++d)
-      add(words, std::string("force ") + "xyz"[d] + " on " + row.name, row.force[d]);
+      add(std::string("force ") + "xyz"[d] + " on " + row.name, row.force[d]);
     for (unsigned int d = 0; d < row.n_moments; ++d)
-      add(words, "moment " + (dim == 2 ? "" : std::string(1, "xyz"[d]) + " ") + "on " + row.name,
+      add("moment " + (dim == 2 ? "" : std::string(1, "xyz"[d]) + " ") + "on " + row.name,
           row.moment[d]);
-    add(words, "normal force on " + row.name, row.normal);
-    add(words, "friction on " + row.name, row.friction);
+    add((row.kind == ForceKind::pretension ? "tension of " : "normal force on ") + row.name,
+        row.normal);
+    add("friction on " + row.name, row.friction);
   }
   return words;
 }
 
 /** As in "probe tip: ux 0.0123, uy -4e-05 mm; s1 3, s2 0, szz 0, von Mises 3 MPa". */
 template <int dim>
-std::string probe_in_words(const ProbeValue<dim> &value, const Scene<dim> &scene)
+std::string probe_in_words(const ProbeValue<dim> &value, const StepReport<dim> &step)
 {
+  const Scene<dim> &scene = step.scene;
   const Probe<dim> &probe = scene.probes[value.probe];
   std::string words = "probe " + probe.name + ":";
   if (!std::isfinite(value.displacement[0].value))
@@ -67,9 +77,9 @@ std::string probe_in_words(const ProbeValue<dim> &value, const Scene<dim> &scene
   for (unsigned int d = 0; d < dim; ++d)
   {
     const Measured &number = value.displacement[d];
-    words += std::string(d > 0 ? ", u" : " u") + "xyz"[d] + " " +
-             (number.interval ? interval_in_words(*number.interval) + " (guaranteed)"
-                              : text(number.value, shown_digits));
+    words +=
+        std::string(d > 0 ? ", u" : " u") + "xyz"[d] + " " +
+        (number.interval ? interval_of(step, *number.interval) : text(number.value, shown_digits));
   }
   const auto unit = [](const std::string &label)
   { return unit_name(label).empty() ? "" : " " + unit_name(label); };
@@ -128,11 +138,12 @@ std::string bound_of_coulomb(const StepReport<dim> &step)
 template <int dim>
 std::string results_in_words(const StepReport<dim> &step)
 {
-  std::string words = "\n" + bound_of_coulomb(step) + intervals_in_words(step.forces);
+  std::string words = "\n" + bound_of_coulomb(step) + intervals_in_words(step);
   if (!step.no_intervals.empty() && step.bound) // else it is why the error has no bound
     words += "without an interval: " + step.no_intervals + "\n";
+  words += pretensions_in_words(step);
   for (const ProbeValue<dim> &value : step.probes)
-    words += probe_in_words(value, step.scene);
+    words += probe_in_words(value, step);
   return words + extremes_in_words(step);
 }
 

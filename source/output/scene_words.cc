@@ -4,10 +4,13 @@
 #include <hpvi/driver/backend.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/mesh_words.h>
-#include <hpvi/output/probe_marks.h>
+#include <hpvi/output/pretension_report.h>
+#include <hpvi/output/probe_table.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/plane/mesh.h>
+#include <hpvi/reader/gmsh/drawing_kind.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/shapes/mesh_from_file.h>
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/hexahedral_mesh.h>
@@ -72,11 +75,20 @@ Scene<dim> at_the_end(const Scene<dim> &scene)
 }
 
 template <int dim>
-std::set<std::size_t> materials_of(const Triangulation<dim> &mesh)
+unsigned int n_materials(const Scene<dim> &scene)
+{
+  unsigned int n = 0;
+  for (unsigned int m = 0; m < scene.materials.size(); ++m)
+    n += material_beside(scene, m) == m ? 1 : 0;
+  return n;
+}
+
+template <int dim>
+std::set<std::size_t> materials_of(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::set<std::size_t> result;
   for (const auto &cell : mesh.active_cell_iterators())
-    result.insert(cell->material_id());
+    result.insert(material_beside(scene, cell->material_id()));
   return result;
 }
 
@@ -84,7 +96,7 @@ template <int dim>
 std::string name_in_words(const Scene<dim> &scene, const std::size_t number)
 {
   const std::string &name = scene.materials[number].name;
-  if (!name.empty() || scene.materials.size() == 1)
+  if (!name.empty() || n_materials(scene) == 1)
     return "material" + (name.empty() ? "" : " " + name);
   return scene.parameters ? "material elsewhere" : "material " + std::to_string(number);
 }
@@ -166,6 +178,22 @@ std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mes
          "\n";
 }
 
+/** Of a body among several, as in "lug.step, a STEP file, lengths in mm, "; empty: it is of no file. */
+template <int dim>
+std::string file_in_words(const Scene<dim> &scene, const std::string &body)
+{
+  const std::string section = "Body " + body;
+  const std::string file = scene.parameters && scene.parameters->has(section, "File")
+                               ? scene.parameters->text(section, "File")
+                               : "";
+  if (file.empty())
+    return "";
+  const std::string origin = kind_of_drawing(beside(scene.parameters->file_name(), file))
+                                 .origin(scene.parameters->text(section, "Length unit"));
+  return origin.empty() ? ""
+                        : printable(std::filesystem::path(file).filename()) + ", " + origin + ", ";
+}
+
 /** Of several bodies each, as in "body punch: from (0 0) to (1 1) mm, 4 coarse cells, material steel". */
 template <int dim>
 std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
@@ -181,15 +209,17 @@ std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &m
       if (body_of<dim>(scene.geometry, cell) == b)
       {
         ++n;
-        material = cell->material_id();
+        material = material_beside(scene, cell->material_id());
         for (const unsigned int v : cell->vertex_indices())
           vertices.push_back(cell->vertex(v));
       }
     const auto ends = BoundingBox<dim>(vertices).get_boundary_points();
-    lines += "body " + scene.geometry.bodies[b].name + ": from " + place<dim>(ends.first) + " to " +
-             place<dim>(ends.second) + (unit.empty() ? "" : " " + unit) + ", " + text(n) +
+    lines += "body " + scene.geometry.bodies[b].name + ": " +
+             file_in_words(scene, scene.geometry.bodies[b].name) + "from " +
+             place<dim>(ends.first) + " to " + place<dim>(ends.second) +
+             (unit.empty() ? "" : " " + unit) + ", " + text(n) +
              (n == 1 ? " coarse cell" : " coarse cells") +
-             (scene.materials.size() > 1 ? ", " + name_in_words(scene, material) : "") + "\n";
+             (n_materials(scene) > 1 ? ", " + name_in_words(scene, material) : "") + "\n";
   }
   return lines;
 }
@@ -234,7 +264,7 @@ template <int dim>
 std::string materials_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::string lines;
-  for (const std::size_t k : materials_of(mesh))
+  for (const std::size_t k : materials_of(scene, mesh))
     lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
   const std::string temperature = temperature_in_words(scene);
   return lines + (temperature.empty() ? "" : temperature + "\n");
@@ -342,13 +372,15 @@ std::string scene_in_words(const Scene<dim> &scene)
          (scene.has_load_history()
               ? "load history: " + history_in_words(scene.loading) + "; what follows is at t = 1\n"
               : "") +
-         boundaries_in_words(last, mesh) + body_force_in_words(last, mesh) + probes_in_words(last) +
+         boundaries_in_words(last, mesh) + body_force_in_words(last, mesh) +
+         pretensions_in_words(last) + probes_in_words(last) +
          resultant_in_words(last, takes_primal_path(scene, 1));
 }
 
 template std::string body_force_unit(const Scene<2> &);
 template std::string temperature_in_words(const Scene<2> &);
-template std::set<std::size_t> materials_of(const Triangulation<2> &);
+template unsigned int n_materials(const Scene<2> &);
+template std::set<std::size_t> materials_of(const Scene<2> &, const Triangulation<2> &);
 template Scene<2> at_the_end(const Scene<2> &);
 template Scene<3> at_the_end(const Scene<3> &);
 template std::string name_in_words(const Scene<2> &, std::size_t);

@@ -16,7 +16,8 @@ std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivi
     return "done: the error, estimated by a stress in equilibrium, is below Adaptivity/Tolerance";
   if (stop == Stop::tolerance && !adaptivity.tolerance_column.empty())
     return "done: " + adaptivity.tolerance_column +
-           " is guaranteed to Adaptivity/Tolerance of its value";
+           (by_coupling ? ", if the coupling is as estimated, is known" : " is guaranteed") +
+           " to Adaptivity/Tolerance of its value";
   if (stop == Stop::tolerance && adaptivity.is_default_tolerance)
     return std::string("done: the error ") +
            (has_bound && by_coupling && adaptivity.tolerance_on == Indicator::bound

@@ -4,6 +4,7 @@
 #include <hpvi/driver/threads.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/plate_report.h>
+#include <hpvi/output/pretension_report.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
@@ -166,6 +167,8 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   ending.forces = forces_json(step.equilibrium);
   if (step.scene.has_plates())
     ending.plates = plates_json(step.scene, step.equilibrium);
+  if (!step.scene.pretensions.empty())
+    ending.pretensions = pretensions_json(step);
   ending.balance = balance_json(step.equilibrium);
   ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
   ending.largest_displacement = largest_displacement_json(step);
@@ -182,7 +185,6 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
           : "";
   const bool began_elsewhere = !scene_file.empty();
   Record seconds = stage_record(times);
-  seconds.emplace_back("report", rounded(seconds_of_report, 6));
   std::vector<std::pair<std::string, std::string>> entries{
       {"status", json_string(text(status))},
       {"stopped_by", json_value(text(stopped_by))},
@@ -222,6 +224,8 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"files", json_lines(files)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
+  if (!scene.pretensions.empty())
+    entries.emplace_back("pretensions", ending.pretensions);
   if (scene.has_load_history())
     entries.emplace_back("history_largest", ending.history_largest);
   if (!contradiction.empty())

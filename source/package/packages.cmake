@@ -19,6 +19,7 @@ foreach(component ${CPACK_COMPONENTS_ALL})
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/package/hpvi.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program OPTIONAL)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/doc/html/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc/html COMPONENT manual OPTIONAL)
+install(FILES ${PROJECT_BINARY_DIR}/doc/hpvi.pdf DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc COMPONENT manual OPTIONAL)
 # prm/README.md shows pictures of the sources; the manual has that page, too.
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DOCDIR}/../hpvi-doc COMPONENT manual PATTERN README.md EXCLUDE)
 
@@ -31,6 +32,7 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-hpvi)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "hp finite elements for elastic contact with friction
 Solves elastic bodies in contact, with Tresca's and Coulomb's friction,
 by adaptive hp finite elements, driven by a parameter file; with Tresca's
@@ -46,14 +48,14 @@ if(TARGET hpvi_python)
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "hpvi (= ${PROJECT_VERSION}-1), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${NEXT_PYTHON}), python3-numpy")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-matplotlib)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "hpvi (= ${PROJECT_VERSION}-1), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${NEXT_PYTHON}), python3-numpy, python3-matplotlib, python3-jinja2")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS weasyprint)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module of hpvi, elastic contact with friction
-Solves scenes of hpvi from Python; results are arrays of NumPy, and
-pictures where matplotlib is.")
+Solves scenes of hpvi from Python; results are arrays of NumPy. Draws
+pictures and makes reports of runs, for the program hpvi, too.")
 set(CPACK_DEBIAN_MANUAL_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_MANUAL_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_MANUAL_PACKAGE_DEPENDS libjs-mathjax)
 set(CPACK_COMPONENT_MANUAL_DESCRIPTION "manual and scenes of hpvi, elastic contact with friction
-The manual of hpvi to read offline, and the scenes that it speaks of.")
+The manual of hpvi to read offline, as HTML and PDF, and its scenes.")
 include(CPack)

@@ -32,7 +32,8 @@ po::options_description visible_options()
       "limits of Adaptivity alone");
   add("report", po::value<std::string>()->value_name("DIR"),
       "write report.html into DIR, a page that tells of the run whose results are there, and solve "
-      "nothing");
+      "nothing; python3-hpvi draws its pictures");
+  add("pdf", "with --report: write report.pdf, too");
   add("import", po::value<std::string>()->value_name("DECK.inp"),
       "write a deck of CalculiX or Abaqus, of the plane or of revolution, as scene.prm and "
       "mesh.msh "
@@ -40,8 +41,9 @@ po::options_description visible_options()
   add("inf-sup", "measure the discrete inf-sup constant beta of each step, in [0,1] and better not "
                  "small, and write no file");
   add("validate", "check the scene, say in words what it says, and write nothing");
-  add("picture", "draw the scene with its supports, loads and contact into scene.svg, and solve "
-                 "nothing");
+  add("picture",
+      "draw the scene with its supports, loads and contact into scene.svg, by scene.json, "
+      "which says it in numbers, and solve nothing");
   add("print-parameters", "print all entries of the scene with their values; without a scene: the "
                           "defaults, documented");
   add("help,h", "print this text");
@@ -179,6 +181,7 @@ CommandLine parse(const int argc, const char *const argv[])
       result.sweeps.push_back(swept_entry(text));
   result.validate = values.count("validate");
   result.picture = values.count("picture");
+  result.pdf = values.count("pdf");
   result.inf_sup = values.count("inf-sup");
   result.print_parameters = values.count("print-parameters");
   result.help = values.count("help");
@@ -187,6 +190,8 @@ CommandLine parse(const int argc, const char *const argv[])
   if (values.count("report") && values.count("resume"))
     throw InputError(
         "hpvi: --report tells of a run, and --resume goes on with one; remove one of the two");
+  if (result.pdf && !values.count("report"))
+    throw InputError("hpvi: --pdf belongs to --report DIR; name the directory of results");
   if (values.count("report"))
     take_report(values["report"].as<std::string>(), result);
   if (values.count("resume"))
@@ -219,7 +224,7 @@ std::string usage()
   std::ostringstream text;
   text << "Usage: hpvi [options] SCENE.prm\n\n"
           "Solves the scene with adaptive hp finite elements: elastic bodies in contact, with\n"
-          "friction. Prints one row per adaptive step and writes tables and pictures.\n"
+          "friction. Prints one row per adaptive step and writes tables and fields.\n"
           "Exit status: 0 done, 1 bad input, 2 the numerics gave up or something could not be\n"
           "written, 128 + n ended by signal n; what is finished stays in the output directory.\n\n"
        << visible_options();

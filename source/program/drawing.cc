@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <new>
 #include <set>
@@ -78,14 +79,49 @@ void choose_options(const Request &request)
     gmsh::option::setString("Geometry.OCCTargetUnit", request.unit);
 }
 
-void load(const Request &request)
+/** Is a mesh file of Gmsh in a format before 3, in which each element tells its group? */
+bool has_groups_of_elements(const Request &request)
+{
+  std::ifstream in(request.path);
+  std::string word, version;
+  while (request.kind == "msh" && in >> word && word != "$MeshFormat" && word != "$NOD")
+    continue;
+  in >> version;
+  return request.kind == "msh" && (word == "$NOD" || version < "3");
+}
+
+bool is_an_entity_in_two_groups()
+{
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities);
+  return std::any_of(entities.begin(), entities.end(),
+                     [](const auto &entity)
+                     {
+                       std::vector<int> groups;
+                       gmsh::model::getPhysicalGroupsForEntity(entity.first, entity.second, groups);
+                       return groups.size() > 1;
+                     });
+}
+
+/** Are entities of the model the groups of the file? Gmsh gives the groups of elements to their entity, and so does not know whose
+ * they were where it has several. */
+bool load(const Request &request)
 {
   gmsh::logger::start();
-  if (!request.is_cad())
-    return gmsh::merge(request.path);
-  gmsh::vectorpair shapes;
-  gmsh::model::occ::importShapes(request.path, shapes, true, request.kind);
-  gmsh::model::occ::synchronize();
+  if (request.is_cad())
+  {
+    gmsh::vectorpair shapes;
+    gmsh::model::occ::importShapes(request.path, shapes, true, request.kind);
+    gmsh::model::occ::synchronize();
+    return false;
+  }
+  gmsh::merge(request.path);
+  if (!has_groups_of_elements(request) || !is_an_entity_in_two_groups())
+    return false;
+  gmsh::clear();
+  set("Mesh.SwitchElementTags", 1);
+  gmsh::merge(request.path);
+  return true;
 }
 
 bool has(const int dim)
@@ -161,12 +197,17 @@ public:
   double cost() const
   {
     const double n = has_to_be_cut ? 3. * n_triangles + 4. * n_quadrilaterals : n_quadrilaterals;
-    return is_folded ? 1e300 : n * (largest_degrees > good_degrees ? 2 : 1);
+    return is_folded || is_concave ? 1e300 : n * (largest_degrees > good_degrees ? 2 : 1);
+  }
+
+  bool is_without_folds() const
+  {
+    return !is_folded;
   }
 
   bool is_good() const
   {
-    return !is_folded && !has_to_be_cut && largest_degrees <= good_degrees;
+    return !is_folded && !is_concave && !has_to_be_cut && largest_degrees <= good_degrees;
   }
 
 private:
@@ -196,17 +237,33 @@ private:
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, all;
     gmsh::model::mesh::getElements(types, tags, all, 2, surface);
-    double sign = 0; // all cells of a surface turn the same way
+    double turn = 0; // all cells of a surface turn the same way
     for (std::size_t t = 0; t < types.size(); ++t)
     {
       const std::size_t n = types[t] == 2 ? 3 : 4;
       (n == 3 ? n_triangles : n_quadrilaterals) += all[t].size() / n;
       has_to_be_cut = has_to_be_cut || n == 3;
       for (std::size_t begin = 0; begin + n <= all[t].size(); begin += n)
+      {
+        const double area = area_of(all[t].data() + begin, n);
+        turn = turn == 0 ? area : turn;
+        is_folded = is_folded || !(area * turn > 0);
         for (std::size_t k = 0; k < n; ++k)
           take_corner(all[t][begin + (k + n - 1) % n], all[t][begin + k],
-                      all[t][begin + (k + 1) % n], sign);
+                      all[t][begin + (k + 1) % n], turn);
+      }
     }
+  }
+
+  double area_of(const std::size_t *const nodes, const std::size_t n)
+  {
+    double twice = 0;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const auto &a = places[nodes[k]], &b = places[nodes[(k + 1) % n]];
+      twice += a[0] * b[1] - a[1] * b[0];
+    }
+    return twice / 2;
   }
 
   int curve_at(const std::size_t a, const std::size_t b) const
@@ -216,13 +273,12 @@ private:
   }
 
   void take_corner(const std::size_t before, const std::size_t here, const std::size_t after,
-                   double &sign)
+                   const double turn)
   {
     const auto &a = places[before], &b = places[here], &c = places[after];
     const double x = c[0] - b[0], y = c[1] - b[1], u = a[0] - b[0], v = a[1] - b[1],
                  across = x * v - y * u;
-    sign = sign == 0 ? across : sign;
-    is_folded = is_folded || !(across * sign > 0);
+    is_concave = is_concave || !(across * turn > 0);
     largest_degrees =
         std::max(largest_degrees, std::atan2(std::abs(across), x * u + y * v) * 180 / M_PI);
     const int curve = curve_at(before, here);
@@ -232,9 +288,44 @@ private:
   std::map<std::size_t, std::array<double, 2>> places;
   std::map<std::pair<std::size_t, std::size_t>, int> curves; ///< by the ends of their lines
   std::size_t n_triangles = 0, n_quadrilaterals = 0;
-  bool is_folded = false, has_to_be_cut = false;
+  bool is_folded = false, is_concave = false, has_to_be_cut = false;
   double largest_degrees = 0;
 };
+
+bool has_cells(const int dim)
+{
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, dim);
+  return !types.empty();
+}
+
+bool is_partitioned()
+{
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities);
+  return std::any_of(entities.begin(), entities.end(),
+                     [](const auto &entity)
+                     {
+                       std::vector<int> partitions;
+                       gmsh::model::getPartitions(entity.first, entity.second, partitions);
+                       return !partitions.empty();
+                     });
+}
+
+/** Are its surfaces those of a drawing, and not of a mesh that a script has read? */
+bool is_drawn()
+{
+  gmsh::vectorpair surfaces;
+  gmsh::model::getEntities(surfaces, 2);
+  return std::none_of(surfaces.begin(), surfaces.end(),
+                      [](const auto &surface)
+                      {
+                        std::string type;
+                        gmsh::model::getType(surface.first, surface.second, type);
+                        return type == "Discrete surface";
+                      });
+}
 
 constexpr double blossom = 1, full_blossom = 3, full_simple = 2, simple = 0;
 
@@ -252,7 +343,14 @@ void generate_cells()
     gmsh::model::mesh::generate(2);
   };
   if (algorithm != blossom || recombines != 1) // a script has chosen
-    return gmsh::model::mesh::generate(2);
+  {
+    if (!has_cells(2))
+      gmsh::model::mesh::generate(2);
+    if (Quality().is_without_folds())
+      return;
+    set("Mesh.RecombineAll", 1);
+    set("Mesh.SubdivisionAlgorithm", 0);
+  }
   for (const double way : {blossom, full_blossom, full_simple, simple})
   {
     generate(way);
@@ -268,26 +366,32 @@ void generate_cells()
   generate(best);
 }
 
-bool has_cells(const int dim)
-{
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags, nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes, dim);
-  return !types.empty();
-}
-
 void mesh(const Request &request)
 {
-  gmsh::model::mesh::unpartition();
+  if (is_partitioned())
+    gmsh::model::mesh::unpartition(); // which drops groups whose names have an underscore
   if (request.kind != "geo" && !request.is_cad())
     return;
   if (has_cells(request.dim)) // a script may make its own
-    return;
+  {
+    if (request.dim == 3 || !is_drawn())
+      return;
+    gmsh::model::mesh::setOrder(1); // edges follow the drawing whatever the order
+    if (Quality().is_without_folds())
+      return;
+    std::fputs("remark the mesh that the script makes is folded, and another one was made; set "
+               "another Mesh.RecombinationAlgorithm there\n",
+               out);
+  }
   check_drawing(request);
   if (request.size > 0)
+  {
     set("Mesh.MeshSizeMax", request.size / request.scale);
-  else if (request.is_cad())
-    set("Mesh.MeshSizeMax", box_of_drawing().size() / 4);
+    gmsh::vectorpair points; // at which else it is a tenth of the diagonal
+    gmsh::model::getEntities(points, 0);
+    if (request.is_cad())
+      gmsh::model::mesh::setSize(points, request.size / request.scale);
+  }
   if (request.curvature > 0)
     set("Mesh.MeshSizeFromCurvature", request.curvature);
   if (request.dim == 2)
@@ -310,7 +414,8 @@ std::string word(std::string name)
 class Groups
 {
 public:
-  Groups()
+  /** @p are_entities: an entity is a group, and groups are entities. */
+  explicit Groups(const bool are_entities) : are_entities(are_entities)
   {
     gmsh::vectorpair all;
     gmsh::model::getPhysicalGroups(all);
@@ -326,11 +431,31 @@ public:
       n_entities[{dim, own}] += entities.size();
       for (const int entity : entities)
         of_entity[{dim, entity}].insert(own);
-      if (!name.empty())
+      if (!name.empty() && !are_entities)
         std::fprintf(out, "name %d %d %s\n", dim, own, word(name).c_str());
+    }
+    gmsh::model::getEntities(all);
+    for (const auto &[dim, tag] : all)
+    {
+      std::string name;
+      if (are_entities)
+        gmsh::model::getPhysicalName(dim, tag, name);
+      if (!name.empty())
+        std::fprintf(out, "name %d %d %s\n", dim, tag, word(name).c_str());
     }
   }
 
+  int group_of(const int dim, const int entity) const
+  {
+    return are_entities ? entity : of(dim, entity);
+  }
+
+  int entity_of(const int dim, const int entity) const
+  {
+    return are_entities ? of(dim, entity) : entity;
+  }
+
+private:
   int of(const int dim, const int entity) const
   {
     const auto found = of_entity.find({dim, entity});
@@ -342,7 +467,7 @@ public:
                              });
   }
 
-private:
+  const bool are_entities;
   std::map<std::pair<int, std::string>, int> by_name;
   std::map<Group, std::size_t> n_entities;
   std::map<Group, std::set<int>> of_entity;
@@ -366,6 +491,12 @@ public:
     used.insert(tag);
   }
 
+  /** Of an edge of higher order, between its ends. */
+  void take_in_edge(const std::size_t tag)
+  {
+    in_edges.insert(tag);
+  }
+
   bool is_used(const std::size_t tag) const
   {
     return used.count(tag) > 0;
@@ -381,8 +512,13 @@ public:
       high = std::max(high, at(tag)[2]);
       size = std::max({size, std::abs(at(tag)[0]), std::abs(at(tag)[1])});
     }
-    if (high - low <= 1e-12 * size)
-      height = low;
+    if (high - low > 1e-12 * size)
+      return;
+    height = low;
+    for (const std::size_t tag : in_edges)
+      if (std::abs(at(tag)[2] - height) > 1e-12 * size)
+        refuse("has the node " + std::to_string(tag) +
+               " inside an edge, and outside of the plane of all corners; draw it there");
   }
 
   const std::array<double, 3> &at(const std::size_t tag) const
@@ -391,6 +527,10 @@ public:
     if (found == places.end())
       refuse("has an element with a node " + std::to_string(tag) +
              " that is not there; write the file anew");
+    for (const double x : found->second)
+      if (!std::isfinite(x))
+        refuse("has the node " + std::to_string(tag) +
+               " at a place that is no finite number; write the file anew");
     return found->second;
   }
 
@@ -408,7 +548,7 @@ public:
 
 private:
   std::map<std::size_t, std::array<double, 3>> places;
-  std::set<std::size_t> used;
+  std::set<std::size_t> used, in_edges;
 };
 
 /** Elements of a dimension by their corners, with entity and group; edges of higher order as curves. */
@@ -416,7 +556,7 @@ class Elements
 {
 public:
   Elements(const Request &request, Nodes &nodes, const Groups &groups)
-      : request(request), nodes(nodes), groups(groups)
+      : is_drawing(request.is_cad() || request.kind == "geo"), nodes(nodes), groups(groups)
   {
     gmsh::vectorpair entities;
     gmsh::model::getEntities(entities);
@@ -429,6 +569,12 @@ public:
   {
     for (const std::string &line : lines)
       std::fprintf(out, "%s\n", line.c_str());
+    if (n_by_corners > 0)
+      std::fputs(("remark " + std::to_string(n_by_corners) +
+                  " cells of second or higher order count by their corners, for in space faces are "
+                  "plane; mesh finer where that matters\n")
+                     .c_str(),
+                 out);
   }
 
 private:
@@ -464,14 +610,19 @@ private:
     {
       const Kind &one = kind(types[t]);
       for (std::size_t begin = 0; begin + one.n_nodes <= all[t].size(); begin += one.n_nodes)
-        take(one, types[t], entity, all[t].data() + begin);
+        take(one, types[t], entity, is_drawing ? 0 : tags[t][begin / one.n_nodes],
+             all[t].data() + begin);
     }
   }
 
-  void take(const Kind &one, const int type, const int entity, const std::size_t *const element)
+  void take(const Kind &one, const int type, const int entity, const std::size_t number,
+            const std::size_t *const element)
   {
     std::string line = "element " + std::to_string(one.type == 0 ? type : one.type) + " " +
-                       std::to_string(entity) + " " + std::to_string(groups.of(one.dim, entity));
+                       std::to_string(groups.entity_of(one.dim, entity)) + " " +
+                       std::to_string(groups.group_of(one.dim, entity)) + " " +
+                       std::to_string(number);
+    n_by_corners += one.dim == 3 && one.order > 1;
     for (int k = 0; k < one.n_corners; ++k)
     {
       nodes.take(element[k]);
@@ -487,8 +638,15 @@ private:
   void take_edge(const Kind &one, const int edge, const std::size_t *const element)
   {
     const std::size_t from = element[edge], to = element[(edge + 1) % one.n_corners];
-    if (request.is_cad() || request.kind == "geo" ||
-        !done.insert({std::min(from, to), std::max(from, to)}).second)
+    if (is_drawing)
+      return;
+    const auto begin = element + one.n_corners + edge * (one.order - 1);
+    const std::set<std::size_t> inner(begin, begin + one.order - 1);
+    const auto [known, is_new] = edges.insert({{std::min(from, to), std::max(from, to)}, inner});
+    if (known->second != inner)
+      refuse("has other nodes on the edge between the nodes " + std::to_string(from) + " and " +
+             std::to_string(to) + " in one element than in another; write the file anew");
+    if (!is_new)
       return;
     std::string line =
         "edge " + std::to_string(from) + " " + std::to_string(to) + " " + std::to_string(one.order);
@@ -496,22 +654,27 @@ private:
     {
       const auto &x = nodes.at(node);
       char text[100];
-      std::snprintf(text, sizeof(text), " %.17g %.17g %.17g", x[0], x[1], x[2] - nodes.height);
+      std::snprintf(text, sizeof(text), " %.17g %.17g", x[0], x[1]);
       line += text;
     };
     add(from);
     for (int k = 0; k < one.order - 1; ++k)
-      add(element[one.n_corners + edge * (one.order - 1) + k]);
+    {
+      nodes.take_in_edge(begin[k]);
+      add(begin[k]);
+    }
     add(to);
     lines.push_back(line);
   }
 
-  const Request &request;
+  const bool is_drawing;
   Nodes &nodes;
   const Groups &groups;
   std::map<int, Kind> kinds;
   std::vector<std::string> lines;
-  std::set<std::pair<std::size_t, std::size_t>> done; ///< edges
+  std::map<std::pair<std::size_t, std::size_t>, std::set<std::size_t>>
+      edges; ///< of higher order: nodes between their ends
+  std::size_t n_by_corners = 0;
 };
 
 constexpr int degree = 16; ///< of a panel of a curve
@@ -675,12 +838,12 @@ private:
   const Nodes &nodes;
 };
 
-void hand_over(const Request &request)
+void hand_over(const Request &request, const bool groups_are_entities)
 {
   if (!has_cells(request.dim))
     refuse(request.dim == 2 ? "has no cells in the plane; give it a face or a mesh of one"
                             : "has no cells in space; give it a solid or a mesh of one");
-  const Groups groups;
+  const Groups groups(groups_are_entities);
   Nodes nodes(request);
   const Elements elements(request, nodes, groups);
   if (request.dim == 2)
@@ -710,9 +873,9 @@ int run(const Request &request)
   try
   {
     choose_options(request);
-    load(request);
+    const bool groups_are_entities = load(request);
     mesh(request);
-    hand_over(request);
+    hand_over(request, groups_are_entities);
     return std::fflush(out) == 0 ? 0 : 1;
   }
   catch (const std::invalid_argument &error)

@@ -54,8 +54,8 @@ void import_deck_into(const std::string &file, const std::string &directory)
   check_files(directory);
   const std::string texts[] = {deck.mesh, list, deck.scene};
   for (unsigned int k = 0; k < files.size(); ++k)
-    if (const std::error_code error = write_whole(fs::path(directory) / files[k], texts[k],
-                                                  (fs::path(directory) / ".import").string()))
+    if (const std::error_code error =
+            write_whole(fs::path(directory) / files[k], texts[k], ".import"))
       throw OutputFailure("output directory '" + printable(directory, 400) + "': " + files[k] +
                           " cannot be written: " + error.message());
   std::cout << "scene in " << printable(directory, 400) << "/scene.prm, its mesh in mesh.msh, this "

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/file_format.h>
-#include <hpvi/base/formatting.h>
 #include <hpvi/base/memory.h>
 #include <hpvi/base/text.h>
 #include <hpvi/driver/backend.h>
 #include <hpvi/output/output.h>
-#include <hpvi/output/report.h>
 #include <hpvi/output/result_directory.h>
-#include <hpvi/output/scene_picture.h>
+#include <hpvi/output/scene_json.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/program/command_line.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/import_run.h>
 #include <hpvi/program/inf_sup_run.h>
 #include <hpvi/program/interruption.h>
+#include <hpvi/program/python_call.h>
 #include <hpvi/program/run.h>
 #include <hpvi/program/started_processes.h>
 #include <hpvi/program/sweep_run.h>
@@ -64,37 +63,7 @@ void measure(const Scene<3> &) // refused when it was read
 {
 }
 
-/** Writes it into @p directory and says where it is. */
-void write(const ResultDirectory &results, const std::string &what, const std::string &directory,
-           const std::string &name, const std::string &content)
-{
-  if (const std::error_code error = results.write(name, content))
-    throw OutputFailure(results.name() + ": " + name + " cannot be written: " + error.message());
-  std::cout << what << " in " << printable(directory, 400) << '/' << name << std::endl;
-}
-
-/** `hpvi --picture`: scene_picture() as scene.svg into @p directory. Throws InputError or OutputFailure. */
-void draw(const Scene<2> &scene, const std::string &directory)
-{
-  in_all_processes(
-      [&]()
-      {
-        if (!is_first_process())
-          return;
-        const std::string picture = scene_picture(scene); // first: it may be refused
-        write({directory, results::picture, {scene.file}}, "picture", directory, "scene.svg",
-              picture);
-      });
-}
-
-void draw(const Scene<3> &scene, const std::string &)
-{
-  throw InputError(scene.origin() +
-                   ": Dimension = 3: --picture draws bodies in the plane alone; --validate says "
-                   "what the scene says, and ParaView shows solution-NN.vtu of a run");
-}
-
-/** Another run may be writing there, and a page of this name may be another's. */
+/** Another run may be writing there, and files of these names may be another's. */
 std::unique_ptr<ResultDirectory> opened(const std::string &directory)
 {
   try
@@ -110,28 +79,48 @@ std::unique_ptr<ResultDirectory> opened(const std::string &directory)
   }
 }
 
-template <int dimension>
-std::string report_of(const std::string &directory, const ParameterFile &file)
+/** scene.json into @p results: it stays, whatever becomes of what is drawn of it. */
+void write_scene(const ResultDirectory &results, const std::string &json)
 {
-  const auto scene = read_scene<dimension>(file);
-  try
-  {
-    return report(scene, directory, content_of(directory + "/summary.json"));
-  }
-  catch (const InputError &error)
-  {
-    throw InputError("hpvi: --report " + printable(directory, 400) + ": " + error.what());
-  }
+  if (const std::error_code error = results.write("scene.json", json))
+    throw OutputFailure(results.name() + ": scene.json cannot be written: " + error.message());
 }
 
-/** `hpvi --report`: report() as report.html into @p directory. Throws InputError or OutputFailure. */
-void tell_of_run(const std::string &directory)
+/** `hpvi --picture`: scene.json and scene.svg into @p directory. Throws InputError or OutputFailure. */
+void draw(const Scene<2> &scene, const std::string &directory)
+{
+  in_all_processes(
+      [&]()
+      {
+        if (!is_first_process())
+          return;
+        const std::string json = scene_json(scene); // first: it may be refused
+        write_scene({directory, results::picture + "|scene\\.json", {scene.file}}, json);
+        call_python("picture", {"picture", directory + "/scene.json", directory + "/scene.svg"});
+        std::cout << "picture in " << printable(directory, 400) << "/scene.svg" << std::endl;
+      });
+}
+
+void draw(const Scene<3> &scene, const std::string &)
+{
+  throw InputError(scene.origin() +
+                   ": Dimension = 3: --picture draws bodies in the plane alone; --validate says "
+                   "what the scene says, and ParaView shows solution-NN.vtu of a run");
+}
+
+/** `hpvi --report`: scene.json and report.html into @p directory. Throws InputError or OutputFailure. */
+void tell_of_run(const std::string &directory, const bool with_pdf)
 {
   const std::unique_ptr<ResultDirectory> results = opened(directory);
   const ParameterFile file(directory + "/scene.prm");
-  const std::string page =
-      (scene_dimension(file) == 3 ? report_of<3> : report_of<2>)(directory, file);
-  write(*results, "report", directory, "report.html", page);
+  write_scene(*results, scene_dimension(file) == 3 ? scene_json(read_scene<3>(file))
+                                                   : scene_json(read_scene<2>(file)));
+  std::vector<std::string> words{"report", directory};
+  if (with_pdf)
+    words.emplace_back("--pdf");
+  call_python("report", words);
+  std::cout << "report in " << printable(directory, 400) << "/report.html"
+            << (with_pdf ? " and report.pdf" : "") << std::endl;
 }
 
 /** @p start_mpi is called where several processes may share the work, and nowhere else: it takes its time. */
@@ -195,7 +184,7 @@ void obey(const CommandLine &command_line, const std::function<void()> &start_mp
         [&]()
         {
           if (is_first_process())
-            tell_of_run(command_line.report);
+            tell_of_run(command_line.report, command_line.pdf);
         });
   else if (!command_line.import.empty())
     in_all_processes(

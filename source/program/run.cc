@@ -165,7 +165,6 @@ std::string balance_in_words(const StepReport<dim> &step)
 struct Ending
 {
   StageTimes times;
-  double seconds_of_report = 0;
   std::vector<std::string> warnings;
   std::string words, reason;
   std::string last_bound; ///< of the last step that has one
@@ -229,7 +228,7 @@ void print_head(const Scene<dim> &scene, const Output<dim> &output, const std::s
 template <int dim>
 void print_end(const Scene<dim> &scene, const Ending &ending, const std::string &directory)
 {
-  print_stages(ending.times, ending.seconds_of_report);
+  print_stages(ending.times);
   std::cout << ending.words;
   for (const std::string &warning : ending.warnings)
     std::cout << "\nwarning: " << warning;
@@ -237,13 +236,14 @@ void print_end(const Scene<dim> &scene, const Ending &ending, const std::string 
             << (scene.has_load_history()
                     ? std::to_string(ending.load_steps) + " load steps; the last "
                     : "")
-            << ending.reason << "\nresults in " << directory << std::endl;
+            << ending.reason << "\nresults in " << directory << "\nreport: hpvi --report "
+            << directory << std::endl;
   check_standard_output("; the results in " + printable(directory) + " are complete");
 }
-/** @p state: where it goes on. Returns the seconds of the report. */
+/** @p state: where it goes on. */
 template <int dim>
-double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
-             const std::string &directory, const RunListener<dim> &listener)
+void solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
+           const std::string &directory, const RunListener<dim> &listener)
 {
   const auto solver = state ? std::make_unique<LoadHistory<dim>>(scene, *state, MPI_COMM_WORLD)
                             : std::make_unique<LoadHistory<dim>>(scene, MPI_COMM_WORLD);
@@ -271,7 +271,7 @@ double solve(const std::optional<RunState<dim>> &state, const Scene<dim> &scene,
     output.give_up(RunStatus::failed, failure_line(error)); // the finished steps stay
     throw;
   }
-  return output.finish();
+  output.finish();
 }
 
 template <int dim>
@@ -300,7 +300,7 @@ void run_from(const std::optional<RunState<dim>> &state, const Scene<dim> &scene
     print_row(step);
     ending.hear(step);
   };
-  ending.seconds_of_report = solve<dim>(state, scene, directory, {on_stage, begun, finished});
+  solve<dim>(state, scene, directory, {on_stage, begun, finished});
   progress.erase();
   print_end(scene, ending, directory);
 }

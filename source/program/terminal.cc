@@ -46,13 +46,12 @@ void print_stage(const std::string &name, const double seconds, const double tot
 
 } // namespace
 
-void print_stages(const StageTimes &times, const double seconds_of_report)
+void print_stages(const StageTimes &times)
 {
-  const double total = times.total() + seconds_of_report;
+  const double total = times.total();
   std::cout << "\nstage        seconds  percent\n" << std::fixed;
   for (const auto &[name, seconds] : times.named())
     print_stage(name, seconds, total);
-  print_stage("report", seconds_of_report, total);
   print_stage("total", total, total);
 }
 

@@ -76,7 +76,6 @@ void add_cells(const GivenArrays &arrays, const std::size_t n_points, GmshFile &
 GmshFile mesh_of_arrays(const GivenArrays &arrays)
 {
   GmshFile file;
-  file.version = "2.2";
   file.origin = "points and cells";
   if (arrays.dim != 2 && arrays.dim != 3)
     refuse("points: has " + std::to_string(arrays.dim) +

@@ -144,12 +144,19 @@ SceneText make_scene(const py::object &file, const py::object &entries, const py
   return scene;
 }
 
+/** Drawn by hpvi.plot. */
+py::object picture(const SceneText &scene)
+{
+  const auto json = py::module_::import("json").attr("loads")(scene.json());
+  return py::module_::import("hpvi.plot").attr("scene_svg")(json);
+}
+
 /** Notebooks ask for it whenever a scene is shown, which may be in space or not whole yet. */
 py::object picture_or_none(const SceneText &scene)
 {
   try
   {
-    return py::str(scene.picture());
+    return picture(scene);
   }
   catch (const InputError &)
   {
@@ -305,8 +312,9 @@ space, by numbers of cells. Geometry is of this mesh, or each Body that names no
       .def_property_readonly("title", &SceneText::title)
       .def("describe", &SceneText::words, "What the scene says, in words: as hpvi --validate.")
       .def("print", &SceneText::print, "All entries with their values, as a scene file.")
-      .def("picture", &SceneText::picture,
+      .def("picture", &picture,
            "The scene as scalable vector graphics; notebooks show it by themselves.")
+      .def("json", &SceneText::json, "What hpvi.plot.scene draws, as the text of scene.json.")
       .def("_repr_svg_", &picture_or_none)
       .def("__repr__",
            [](const SceneText &scene)
@@ -329,11 +337,13 @@ program; without it none is written. Raises InputError, NumericalFailure, Output
 } // namespace
 } // namespace hpvi
 
-PYBIND11_MODULE(hpvi, module)
+PYBIND11_MODULE(_hpvi, module)
 {
   module.doc() = "hp finite elements for elastic bodies in contact with friction.";
   module.attr("__version__") = hpvi::version();
   hpvi::add_exceptions(module);
   hpvi::add_scene(module);
   hpvi::add_result(module);
+  for (const char *const name : {"Scene", "Result", "Mesh"}) // the package hands them out
+    module.attr(name).attr("__module__") = "hpvi";
 }

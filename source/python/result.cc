@@ -381,7 +381,7 @@ std::string written_mesh(const SceneText &scene, const std::string &directory)
                      "': has another mesh.msh; choose another one");
   std::filesystem::create_directories(path.parent_path(), error);
   if (!error)
-    error = write_whole(path, mesh, path.string() + ".part");
+    error = write_whole(path, mesh, "mesh.msh.part");
   if (error)
     throw OutputFailure("output directory '" + printable(directory, 400) +
                         "': mesh.msh cannot be written: " + error.message());

@@ -2,7 +2,6 @@
 #include <hpvi/python/result.h>
 #include <hpvi/python/result_class.h>
 
-#include <plot_text.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -154,21 +153,6 @@ py::object last_value(const Result &result, const std::string &column)
         return field(value);
   throw py::key_error(column + ": is no column of convergence.csv; steps has them all");
 }
-
-/** plot() of plot.py, which the module has within. */
-py::object plotter()
-{
-  py::module_ module = py::module_::import("hpvi");
-  if (!py::hasattr(module, "_plot"))
-  {
-    const auto plot = py::module_::import("types").attr("ModuleType")("hpvi._plot");
-    const auto code =
-        py::module_::import("builtins").attr("compile")(plot_text, "hpvi/plot.py", "exec");
-    py::module_::import("builtins").attr("exec")(code, plot.attr("__dict__"));
-    module.attr("_plot") = plot;
-  }
-  return module.attr("_plot").attr("plot");
-}
 } // namespace
 
 void add_result(py::module_ &module)
@@ -219,7 +203,8 @@ void add_result(py::module_ &module)
       .def(
           "plot",
           [](const py::object &result, const py::object &what, const py::object &axes,
-             const py::object &scale) { return plotter()(result, what, axes, scale); },
+             const py::object &scale)
+          { return py::module_::import("hpvi.plot").attr("plot")(result, what, axes, scale); },
           py::arg("what") = py::none(), py::arg("axes") = py::none(), py::arg("scale") = py::none(),
           R"(Draw "body", "contact" or "convergence", without a name all of them, and return the figure.
 

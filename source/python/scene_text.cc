@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/display_name.h>
 #include <hpvi/base/text.h>
-#include <hpvi/output/scene_picture.h>
+#include <hpvi/output/scene_json.h>
 #include <hpvi/output/scene_words.h>
 #include <hpvi/python/scene_text.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/gmsh/given_mesh.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/pretension_reader.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/scene_reader.h>
@@ -32,12 +33,12 @@ auto ask_scene(const SceneText &text, const Ask &ask)
   return ask(read_scene<2>(file));
 }
 
-std::string picture_of(const Scene<2> &scene)
+std::string json_of(const Scene<2> &scene)
 {
-  return scene_picture(scene);
+  return scene_json(scene);
 }
 
-std::string picture_of(const Scene<3> &scene)
+std::string json_of(const Scene<3> &scene)
 {
   throw InputError(scene.origin() + ": Dimension = 3: pictures show bodies in the plane alone; "
                                     "describe() says what the scene says");
@@ -60,7 +61,8 @@ const std::vector<Entry> &entries_of_kinds()
   static const std::vector<Entry> all = []()
   {
     std::vector<Entry> entries = scene_entries(2, {{"NAME"}, {"NAME"}});
-    for (const auto &some : {body_entries("NAME"), pair_entries("NAME"), probe_entries(2, "NAME")})
+    for (const auto &some : {body_entries(2, "NAME"), pair_entries("NAME"),
+                             pretension_entries("NAME"), probe_entries(2, "NAME")})
       entries.insert(entries.end(), some.begin(), some.end());
     return entries;
   }();
@@ -126,9 +128,9 @@ std::string SceneText::words() const
   return ask_scene(*this, [](const auto &scene) { return Utilities::trim(scene_in_words(scene)); });
 }
 
-std::string SceneText::picture() const
+std::string SceneText::json() const
 {
-  return ask_scene(*this, [](const auto &scene) { return picture_of(scene); });
+  return ask_scene(*this, [](const auto &scene) { return json_of(scene); });
 }
 
 std::string SceneText::print() const

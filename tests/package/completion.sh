@@ -18,7 +18,8 @@ check() # offers words...
   _hpvi "$program" "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}"
   local IFS='|'
   for offer in $offers; do
-    if printf '%s\n' ${COMPREPLY[@]+"${COMPREPLY[@]}"} | grep -qxF -- "${offer#!}"; then
+    # No pipe: grep -q ends at the first match, and a writer that it leaves behind would count as failed.
+    if grep -qxF -- "${offer#!}" < <(printf '%s\n' ${COMPREPLY[@]+"${COMPREPLY[@]}"}); then
       [[ $offer == !* ]] || continue
     else
       [[ $offer == !* ]] && continue

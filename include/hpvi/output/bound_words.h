@@ -15,6 +15,9 @@ std::string at_most(double value);
  */
 std::string error_in_words(const std::string &kind, const std::string &size, double coupling,
                            const std::string &zones);
+
+/** What an interval rests on, as in "guaranteed" or "bounded, coupling at most 1.4". @p kind and @p coupling likewise. */
+std::string terms_in_words(const std::string &kind, double coupling);
 } // namespace hpvi
 
 #endif

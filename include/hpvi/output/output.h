@@ -52,10 +52,8 @@ public:
  * | `solution-NN.vtu`, `solution.pvd` | displacement, stress, degree and eta_K on cells of the degree of u_N |
  * | `contact-NN.vtu`, `contact.pvd` | what `contact-NN.csv` has, as lines along the contact |
  * | `solution-NN.pvtu`, `solution-NN.RANK.vtu` | the same in the place of `solution-NN.vtu`, by the cells of each of several processes |
- * | `mesh-NN.svg` | the mesh with degrees in colour and as digits (two dimensions) |
  * | `state.dat` | all that it takes to go on after the last finished step, of a history the last finished load step: RunState |
  * | `reference.dat` | the last displacement, to measure other runs against |
- * | `report.html` | what came out, on a page to read and print, when the run is over |
  * | `summary.json` | how the run ended and what stopped it, its last row, seconds per stage, warnings, all files |
  *
  * Numbers are written with as many digits as it takes to read the same number back. The units are
@@ -93,8 +91,8 @@ public:
    */
   void write_step(const StepReport<dim> &step, const LoadHistory<dim> *solver = nullptr);
 
-  /** Write that the run is done. Returns the seconds of the report. Throws OutputFailure. */
-  double finish();
+  /** Write that the run is done. Throws OutputFailure. */
+  void finish();
 
   /**
    * Write how a run ended that did not get through, if that can be written: @p status is failed
@@ -118,7 +116,6 @@ private:
   void check(const std::string &name, const std::error_code &error) const;
   void write_summary() const;
   void write_state();
-  void write_report();
   void write_pieces(const StepReport<dim> &step);
   void write_pictures(const StepReport<dim> &step);
   void add_to_collections(const StepReport<dim> &step);

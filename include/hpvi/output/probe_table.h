@@ -20,6 +20,10 @@ std::string probe_file(const Scene<dim> &scene, const ProbeLine<dim> &line, unsi
 /** Its rows: the points along one line. */
 template <int dim>
 std::vector<Record> probe_rows(const ProbeLine<dim> &line);
+
+/** As in "probe tip: at (1, 0)", "probe core: mean over the disc of radius 0.1 mm about (1, 0)"; a line each. */
+template <int dim>
+std::string probes_in_words(const Scene<dim> &scene);
 } // namespace hpvi
 
 #endif

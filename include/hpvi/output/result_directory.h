@@ -26,15 +26,16 @@ inline const std::string
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
     contact_line = "contact-[0-9]{2,}\\.vtu|contact\\.pvd", reference = "reference\\.dat",
-    picture = "scene\\.svg", report = "report\\.html",
+    picture = "scene\\.svg", report = "report\\.html|scene\\.json",
     probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
 
 /**
- * The words with which a picture of the scene and a report begin: they are known by them, for no summary.json lists what other
+ * The words with which a picture of the scene, scene.json and a report begin: they are known by them, for no summary.json lists what other
  * commands than a run have made.
  */
 inline const std::string picture_head = "the scene, drawn by hpvi",
-                         report_head = "the run, told by hpvi";
+                         report_head = "the run, told by hpvi",
+                         scene_head = "{\n  \"program\": \"hpvi ";
 } // namespace results
 
 /** NAME-NN.SUFFIX; the number grows beyond two digits where it has to. */

@@ -33,7 +33,11 @@ std::string name_in_words(const Scene<dim> &scene, std::size_t number);
 
 /** Those that cells have: where all are named, none has the unnamed one. */
 template <int dim>
-std::set<std::size_t> materials_of(const dealii::Triangulation<dim> &mesh);
+std::set<std::size_t> materials_of(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh);
+
+/** Without those of layers that a Pretension shortens: they are what is beside them. */
+template <int dim>
+unsigned int n_materials(const Scene<dim> &scene);
 
 /** As in "20 load steps". */
 template <int dim>

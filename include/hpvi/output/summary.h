@@ -38,10 +38,9 @@ struct Summary
   std::string scene_file;               ///< of a run that goes on: the file with which it began
   std::vector<std::string> input_files; ///< that the scene names, with their content
   unsigned int processes = 1;
-  unsigned int steps = 0;       ///< finished ones
-  Record last_row;              ///< of the last of them in convergence.csv
-  StageTimes times;             ///< sums over them
-  double seconds_of_report = 0; ///< to make report.html, which cannot tell them
+  unsigned int steps = 0; ///< finished ones
+  Record last_row;        ///< of the last of them in convergence.csv
+  StageTimes times;       ///< sums over them
   std::vector<std::string> warnings;
   /** As JSON, of the last step of this load step that has one, whatever ends the run. */
   std::string last_error_bound = "null", contradiction; ///< StepReport::contradiction
@@ -57,7 +56,8 @@ struct Summary
     std::string forces = "null", balance = "null", contact = "null", von_mises = "null",
                 plates = "null", largest_displacement = "null",
                 no_intervals = "null", ///< or why forces and probes have none
-        history_largest = "null";      ///< of a load history
+        history_largest = "null",      ///< of a load history
+        pretensions = "null";          ///< of a scene that has any
   };
   Ending ending;
 

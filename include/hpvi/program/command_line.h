@@ -22,6 +22,7 @@ struct CommandLine
   std::string report;             ///< the directory of the results to tell of; empty: none
   std::string import;             ///< the deck to make a scene of; empty: none
   bool validate = false;          ///< say what the scene says, write nothing
+  bool pdf = false;               ///< of the report, too
   bool picture = false;           ///< draw the scene, solve nothing
   bool inf_sup = false;           ///< measure the inf-sup constant, write nothing
   bool print_parameters = false;

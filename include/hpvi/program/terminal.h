@@ -10,7 +10,7 @@
 
 namespace hpvi
 {
-/** As in "hpvi 0.2.0 (Release build), deal.II 9.4.1". */
+/** As in "hpvi 0.3.0 (Release build), deal.II 9.4.1". */
 std::string version_line();
 
 /** Says that results of another scene file are replaced; nothing where @p scene_file is empty. */
@@ -20,7 +20,7 @@ std::string replacement_in_words(const std::string &scene_file, const std::strin
 void check_standard_output(const std::string &complete);
 
 /** Time per stage, summed over the steps. */
-void print_stages(const StageTimes &times, double seconds_of_report);
+void print_stages(const StageTimes &times);
 
 /** What a run is doing, on the last line of a terminal; nothing where standard output is none. */
 class ProgressLine

@@ -6,7 +6,7 @@
 
 namespace hpvi
 {
-/** Adds what Python sees of a Result: `Result`, `Mesh`, and pictures by plot.py, which the module has within. */
+/** Adds what Python sees of a Result: `Result`, `Mesh`, and pictures by hpvi.plot. */
 void add_result(pybind11::module_ &module);
 } // namespace hpvi
 

@@ -33,9 +33,9 @@ struct SceneText
   std::string
   value(const std::string &path) const; ///< of an entry, its default where it is not set
 
-  std::string words() const;   ///< of `hpvi --validate`
-  std::string picture() const; ///< of `hpvi --picture`
-  std::string print() const;   ///< scene.prm, every entry with its value
+  std::string words() const; ///< of `hpvi --validate`
+  std::string json() const;  ///< scene_json(), of which `hpvi --picture` draws
+  std::string print() const; ///< scene.prm, every entry with its value
   std::string title() const;
 };
 

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
+#include <hpvi/base/version.h>
+#include <hpvi/output/boundary_words.h>
+#include <hpvi/output/cell_outline.h>
+#include <hpvi/output/outline_part.h>
+#include <hpvi/output/record.h>
+#include <hpvi/output/scene_json.h>
+#include <hpvi/output/scene_words.h>
+#include <hpvi/plane/mesh.h>
+#include <hpvi/reader/bodies_reader.h>
+#include <hpvi/reader/pretension_reader.h>
+#include <hpvi/reader/probe_reader.h>
+#include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/scene_reader.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+using Members = std::vector<std::pair<std::string, std::string>>;
+
+std::string list(const std::vector<std::string> &items, const std::string &between = ", ")
+{
+  std::string joined;
+  for (const std::string &item : items)
+    joined += (joined.empty() ? "" : between) + item;
+  return "[" + joined + "]";
+}
+
+std::string object(const Members &members)
+{
+  std::string joined;
+  for (const auto &[name, value] : members)
+    joined += (joined.empty() ? "" : ", ") + json_string(name) + ": " + value;
+  return "{" + joined + "}";
+}
+
+std::string strings(const std::vector<std::string> &words)
+{
+  std::vector<std::string> items;
+  for (const std::string &one : words)
+    items.push_back(json_string(one));
+  return list(items);
+}
+
+std::string boolean(const bool value)
+{
+  return value ? "true" : "false";
+}
+
+/** A number that a picture needs: with as many digits as tell places of a body far from the origin apart. */
+std::string number_text(const double value)
+{
+  return json_value(Value(rounded(value + 0., 13)));
+}
+
+std::string vector(const Tensor<1, 2> &value)
+{
+  return "[" + number_text(value[0]) + ", " + number_text(value[1]) + "]";
+}
+
+std::string points(const std::vector<Point<2>> &some)
+{
+  std::vector<std::string> items;
+  for (const Point<2> &x : some)
+    items.push_back(vector(x));
+  return list(items);
+}
+
+std::vector<std::string> lines_of(const std::string &text)
+{
+  std::vector<std::string> lines;
+  std::string line;
+  for (std::istringstream in(text); std::getline(in, line);)
+    if (!line.empty())
+      lines.push_back(line);
+  return lines;
+}
+
+// ---------------------------------------------------------------- entries
+
+/** By kind of section and name of entry: a Boundary has the same wherever it is. */
+using Defaults = std::map<std::pair<std::string, std::string>, std::string>;
+
+std::string kind_of(const std::string &section)
+{
+  return section == "Body force" ? section : section.substr(0, section.find(' '));
+}
+
+Defaults defaults_of(const int dim)
+{
+  Defaults defaults;
+  std::vector<Entry> entries = scene_entries(dim, {{"NAME"}, {}});
+  for (const auto &some : {body_entries(2, "NAME"), pair_entries("NAME"),
+                           pretension_entries("NAME"), probe_entries(dim, "NAME")})
+    entries.insert(entries.end(), some.begin(), some.end());
+  for (const Entry &entry : entries)
+    defaults[{kind_of(entry.section), entry.name}] = entry.default_value;
+  return defaults;
+}
+
+std::string trimmed(const std::string &text)
+{
+  const std::size_t begin = text.find_first_not_of(' '), end = text.find_last_not_of(' ');
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+/** Of the text of scene.prm those entries that are not at their defaults, as in "Boundary top/Traction". */
+std::vector<std::string> changed_entries(const std::string &scene_prm, const int dim)
+{
+  const Defaults defaults = defaults_of(dim);
+  std::vector<std::string> changed;
+  std::string section;
+  for (const std::string &line : lines_of(scene_prm))
+  {
+    const std::string words = trimmed(line);
+    if (words.rfind("subsection ", 0) == 0)
+      section = words.substr(11);
+    else if (words == "end")
+      section.clear();
+    const std::size_t equals = words.find('=');
+    if (words.rfind("set ", 0) != 0 || equals == std::string::npos)
+      continue;
+    const std::string name = trimmed(words.substr(4, equals - 4)),
+                      value = trimmed(words.substr(equals + 1));
+    const auto found = defaults.find({kind_of(section), name});
+    // What a further material leaves open is that of elsewhere.
+    if (!value.empty() && (found == defaults.end() || found->second != value))
+      changed.push_back((section.empty() ? "" : section + "/") + name);
+  }
+  return changed;
+}
+
+// ---------------------------------------------------------------- the body
+
+std::string cells_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+{
+  std::vector<std::string> cells;
+  for (const auto &cell : mesh.active_cell_iterators())
+  {
+    const std::optional<Orthotropy> &own = scene.material_of(cell).orthotropy;
+    cells.push_back(
+        object({{"material", std::to_string(material_beside(scene, cell->material_id()))},
+                {"angle", own ? number_text(own->angle) : "null"},
+                {"outline", points(cell_outline(map_of<2>(cell)))}}));
+  }
+  return list(cells, ",\n    ");
+}
+
+std::string materials_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+{
+  std::vector<std::string> materials;
+  for (const std::size_t k : materials_of(scene, mesh))
+    materials.push_back(
+        object({{"number", std::to_string(k)},
+                {"name", json_string(name_in_words(scene, k))},
+                {"words", json_string(material_in_words(scene, scene.materials[k]))}}));
+  return list(materials, ",\n    ");
+}
+
+// ---------------------------------------------------------------- boundaries
+
+/** Places along a part: so many that nothing narrow is missed where something varies, else what its outline has. */
+std::vector<Point<2>> places_on(const OutlinePart &part, const bool varies)
+{
+  constexpr unsigned int n = 400;
+  if (!varies)
+    return part.points();
+  std::vector<Point<2>> places;
+  for (unsigned int k = 0; k <= n; ++k)
+    places.push_back(part.at(part.length() * k / n).x);
+  return places;
+}
+
+/** The components of a vector at places; null where it has none, or is 0 everywhere. */
+template <class Components>
+std::string vectors(const Components &components, const std::vector<Point<2>> &places)
+{
+  bool is_zero = true;
+  std::vector<std::string> values;
+  for (const Point<2> &x : places)
+  {
+    Tensor<1, 2> value;
+    for (unsigned int c = 0; c < 2; ++c)
+      value[c] = components[c] ? components[c]->value(x) : 0.;
+    is_zero = is_zero && value.norm() == 0;
+    values.push_back(vector(value));
+  }
+  return is_zero ? "null" : list(values);
+}
+
+std::string part_json(const BoundaryCondition<2> &condition, const OutlinePart &part)
+{
+  const bool is_gap = condition.is_unilateral() && !condition.pair,
+             varies = condition.has_displacement() || condition.has_traction() || is_gap;
+  const std::vector<Point<2>> places = places_on(part, varies);
+  std::vector<std::string> gaps;
+  for (const Point<2> &x : places)
+    if (is_gap)
+      gaps.push_back(number_text(condition.gap_at(x)));
+  return object({{"x", points(places)},
+                 {"gap", is_gap ? list(gaps) : "null"},
+                 {"traction", vectors(condition.traction, places)},
+                 {"displacement", vectors(condition.displacement, places)}});
+}
+
+std::string contact_name(const BoundaryCondition<2> &condition)
+{
+  if (!condition.has_contact())
+    return "null";
+  return json_string(condition.is_tied()                        ? "tied"
+                     : condition.contact == Contact::bilateral  ? "bilateral"
+                     : condition.contact == Contact::tangential ? "tangential"
+                                                                : "unilateral");
+}
+
+std::string plate_json(const std::optional<RigidPlate<2>> &plate)
+{
+  return plate ? object({{"force", vector(Tensor<1, 2>({plate->force[0], plate->force[1]}))},
+                         {"moment", number_text(plate->force[2])}})
+               : "null";
+}
+
+/** Curves of a drawing that make it, as its entry has them; else its own name may be a number. */
+std::string curves_of(const Scene<2> &scene, const std::string &name)
+{
+  const std::string section = "Boundary " + name;
+  return scene.parameters && scene.parameters->has(section, "Curves")
+             ? scene.parameters->text(section, "Curves")
+             : "";
+}
+
+std::string boundary_json(const Scene<2> &scene, const Triangulation<2> &mesh,
+                          const BoundaryCondition<2> &condition,
+                          const std::vector<OutlinePart> &parts)
+{
+  const std::vector<Point<2>> sample = points_on(mesh, condition.id);
+  std::vector<std::string> own;
+  for (const OutlinePart &part : parts)
+    if (part.boundary == condition.id)
+      own.push_back(part_json(condition, part));
+  const auto &d = condition.contact_direction;
+  const bool speaks = !condition.pair || scene.pairs[*condition.pair].parts[0] == condition.id;
+  return object({{"name", json_string(condition.name)},
+                 {"curves", json_string(curves_of(scene, condition.name))},
+                 {"supports", strings(support_phrases(scene, condition, sample))},
+                 {"contacts", speaks ? strings(contact_phrases(scene, condition, sample)) : "[]"},
+                 {"loads", strings(traction_phrases(scene, condition, sample))},
+                 {"held", list({boolean(bool(condition.displacement[0])),
+                                boolean(bool(condition.displacement[1]))})},
+                 {"symmetry", boolean(condition.symmetry)},
+                 {"spring", boolean(bool(condition.spring))},
+                 {"plate", plate_json(condition.plate)},
+                 {"contact", contact_name(condition)},
+                 {"pair", condition.pair ? json_string(condition.pair_name) : "null"},
+                 {"direction", d ? vector(*d) : "null"},
+                 {"parts", list(own, ",\n      ")}});
+}
+
+std::string boundaries_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+{
+  const std::vector<OutlinePart> parts = boundary_parts(mesh);
+  std::vector<std::string> boundaries;
+  for (const BoundaryCondition<2> &condition : scene.boundaries)
+    if (std::any_of(parts.begin(), parts.end(),
+                    [&](const OutlinePart &part) { return part.boundary == condition.id; }))
+      boundaries.push_back(boundary_json(scene, mesh, condition, parts));
+  return list(boundaries, ",\n    ");
+}
+
+// ---------------------------------------------------------------- the rest
+
+/** Its mean and the centre of the body; null where there is none. */
+std::string body_force_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+{
+  if (!scene.has_body_force())
+    return "null";
+  Tensor<1, 2> mean;
+  Point<2> centre;
+  std::vector<double> sizes;
+  double area = 0;
+  for (const auto &cell : mesh.active_cell_iterators())
+  {
+    const auto &components = scene.body_force_in(cell);
+    Tensor<1, 2> force;
+    for (unsigned int c = 0; c < 2; ++c)
+      force[c] = components[c] ? components[c]->value(cell->center()) : 0.;
+    mean += cell->measure() * force;
+    centre += cell->measure() * cell->center();
+    area += cell->measure();
+    sizes.push_back(force.norm());
+  }
+  return object(
+      {{"mean", vector(mean / area)},
+       {"centre", vector(centre / area)},
+       {"words", json_string("body force " + range_in_words(sizes, body_force_unit(scene)))}});
+}
+
+std::string pretensions_json(const Scene<2> &scene)
+{
+  std::vector<std::string> cuts;
+  const std::string unit = force_unit(scene.stress_unit, scene.length_unit);
+  for (const Pretension<2> &cut : scene.pretensions)
+    cuts.push_back(object({{"name", json_string(cut.name)},
+                           {"from", vector(cut.from)},
+                           {"to", vector(cut.to)},
+                           {"normal", vector(cut.normal)},
+                           {"words", json_string("F = " + with_unit(cut.force, unit))}}));
+  return list(cuts);
+}
+
+std::string probes_json(const Scene<2> &scene)
+{
+  static const char *const kinds[] = {"point", "disc", "boundary", "line"};
+  std::vector<std::string> probes;
+  for (const Probe<2> &probe : scene.probes)
+  {
+    std::vector<std::string> on;
+    for (const types::boundary_id id : probe.on)
+      on.push_back(scene.boundaries[id].name);
+    probes.push_back(object({{"name", json_string(probe.name)},
+                             {"kind", json_string(kinds[static_cast<unsigned int>(probe.kind)])},
+                             {"at", vector(probe.at)},
+                             {"size", number_text(probe.size)},
+                             {"from", vector(probe.from)},
+                             {"to", vector(probe.to)},
+                             {"on", strings(on)}}));
+  }
+  return list(probes);
+}
+
+Members drawn_members(const Scene<2> &scene)
+{
+  Triangulation<2> mesh;
+  make_mesh(scene, mesh);
+  return {
+      {"cells", cells_json(scene, mesh)},           {"materials", materials_json(scene, mesh)},
+      {"boundaries", boundaries_json(scene, mesh)}, {"body_force", body_force_json(scene, mesh)},
+      {"pretensions", pretensions_json(scene)},     {"probes", probes_json(scene)}};
+}
+
+Members drawn_members(const Scene<3> &) // which ParaView shows
+{
+  return {};
+}
+} // namespace
+
+template <int dim>
+std::string scene_json(const Scene<dim> &scene)
+{
+  const std::string &length = scene.length_unit, &stress = scene.stress_unit;
+  Members members = {
+      {"program", json_string("hpvi " + version())},
+      {"title", json_string(scene.title)},
+      {"dimension", std::to_string(dim)},
+      {"units", object({{"length", json_string(length)}, {"stress", json_string(stress)}})},
+      {"history", boolean(scene.has_load_history())},
+      {"words", strings(lines_of(scene_in_words(scene)))},
+      {"changed",
+       scene.parameters ? strings(changed_entries(effective_parameters(scene), dim)) : "null"}};
+  const Members drawn = drawn_members(at_the_end(scene));
+  members.insert(members.end(), drawn.begin(), drawn.end());
+  return json_file(members);
+}
+
+template std::string scene_json(const Scene<2> &);
+template std::string scene_json(const Scene<3> &);
+} // namespace hpvi

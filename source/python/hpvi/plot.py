@@ -1,0 +1,614 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of runs by matplotlib. Each function takes a Result, or a Run of hpvi.results, and axes to draw into, and returns what a reader has to
+know besides: remarks, a text each.
+
+    figure, axes = matplotlib.pyplot.subplots()
+    hpvi.plot.contact(run, axes)
+
+Colours are those of Okabe and Ito, which the colour-blind tell apart; lines differ by dashes as well.
+"""
+import math
+
+import numpy as np
+
+from . import results
+from .results import label, usual, von_mises
+from .scene import scene, scene_svg  # noqa: F401: pictures of scenes are asked for here
+from .words import digits
+
+STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
+BLUE, ORANGE, GREEN, BLACK, GREY = "#0072b2", "#d55e00", "#009e73", "#000000", "#777777"
+DEGREES = ("#fffde0 #fdf3a0 #e6e66a #b4d857 #78c664 #3fab78 #1f8c86 #276f8e #33538f #443a85 #471b6d #2d0a44").split()
+ERRORS = {"error_bound_relative": ("guaranteed bound", BLUE, "o-"), "estimate_equilibrated_relative": ("estimate by equilibrated stress", BLUE, "s--"),
+          "estimate_relative": ("indicator, no bound", ORANGE, "^--"), "error_relative": ("true error", BLACK, "D:")}
+STYLE = {"font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "xtick.labelsize": 9, "ytick.labelsize": 9, "legend.fontsize": 9, "legend.frameon": False,
+         "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "hpvi", "figure.facecolor": "white", "axes.axisbelow": True,
+         "axes.formatter.useoffset": False}
+PER_CELL = 5  # points a direction and cell; quarters of edges tell which cells are neighbours
+# Bodies in space are seen from below, for there the contact is: where x, y and z lie on the paper.
+PAPER = np.array(((0.85, 0., 0.53), (-0.21, 0.92, 0.33)))
+
+
+def figure(width=4.6, height=3.2):
+    """A figure and its axes [inches], whose text is 9 points high."""
+    pyplot = drawing_library()
+    with pyplot.rc_context(STYLE):
+        made, axes = pyplot.subplots(figsize=(width, height), layout="constrained")
+    return made, axes
+
+
+def drawing_library():
+    try:
+        import matplotlib.pyplot
+        return matplotlib.pyplot
+    except ImportError:
+        raise ImportError("pictures need matplotlib; install python3-matplotlib") from None
+
+
+def plot(result, what=None, axes=None, scale=None):
+    """One of `body`, `contact` and `convergence`, into axes if given; without a name all that there are. Returns the figure."""
+    pyplot = drawing_library()
+    drawn = {"body": body, "contact": contact, "convergence": convergence}
+    if what is not None and what not in drawn:
+        raise ValueError(f"plot({what!r}): there are body, contact and convergence")
+    if what is None and axes is not None:
+        raise ValueError("axes are for one picture: name body, contact or convergence")
+    if what == "contact" and not result.contact:
+        raise ValueError('plot("contact"): the scene has no contact')
+    if what == "contact" and result.dimension == 3:
+        raise NotImplementedError('plot("contact") draws lines in the plane; result.contact has the points, and hpvi.plot.surface draws them')
+    if what == "convergence" and not result.steps:
+        raise ValueError('plot("convergence"): no step is finished')
+    names = [what] if what else [name for name in drawn if name != "contact" or (result.contact and result.dimension == 2)]
+    if axes is None:
+        with pyplot.rc_context(STYLE):
+            made, several = pyplot.subplots(1, len(names), figsize=(5.2 * len(names), 4.4), layout="constrained", squeeze=False)
+        places = several[0]
+    else:
+        made, places = axes.figure, [axes]
+    for name, place in zip(names, places):
+        drawn[name](result, place, **({"scale": scale} if name == "body" else {}))
+    if axes is None:
+        pyplot.close(made)  # notebooks show what a cell returns, and would show it twice
+    return made
+
+
+# ------------------------------------------------------------------ the body
+
+
+def round_scale(displacement, x):
+    """Which shows the displacement as a twelfth of the body, with one digit; never less than it is."""
+    flat = x.reshape(-1, x.shape[-1])
+    size, largest = np.ptp(flat, axis=0).max(), np.linalg.norm(displacement, axis=-1).max()
+    if largest == 0 or size <= 12 * largest:
+        return 1.
+    digits = 10 ** np.floor(np.log10(size / (12 * largest)))
+    return max(1., digits * np.floor(size / (12 * largest) / digits))
+
+
+def edges(x):
+    """Of cells (cells, n, n, ...) their four edges: (4, cells, n, ...)."""
+    return np.stack([x[:, 0], x[:, -1], x[:, :, 0], x[:, :, -1]])
+
+
+def keys(x, low, size):
+    """Whole numbers for places, the same for places that are the same to 1e-10 of the size: no place of a bisected mesh lies where two meet."""
+    return np.floor(1e9 * (x - low) / size + 0.317).astype(np.int64)
+
+
+def on_boundary(middles, points, low, size):
+    """Which of the middles of edges or faces are at no place of another cell: points, all places at which cells tell of themselves."""
+    flat = keys(points.reshape(-1, points.shape[-1]), low, size)
+    _, number, count = np.unique(np.concatenate([flat, keys(middles, low, size)]), axis=0, return_inverse=True, return_counts=True)
+    return count[number.ravel()[len(flat):]] <= 2  # once among the points, once among the middles
+
+
+def outline(x):
+    """The edges (edges, n, 2) that two cells do not share."""
+    low, size = x.reshape(-1, 2).min(axis=0), np.ptp(x)
+    own = edges(x).reshape(-1, x.shape[1], 2)
+    return own[on_boundary(own[:, x.shape[1] // 2], own, low, size)]
+
+
+def body(result, axes, scale=None):
+    """Von Mises stress [stress] on the deformed body with its cells; of a body in the plane its outline at rest, and along each contact its state, on both
+    sides. scale: how many times displacements are shown."""
+    if result.dimension == 3:
+        return body_in_space(result, axes, scale)
+    from matplotlib.collections import LineCollection
+    cells = result.grid(PER_CELL)
+    x, u, stress = cells["x"], cells["u"], von_mises(cells["stress"])
+    scale = round_scale(u, x) if scale is None else scale
+    moved, n = x + scale * u, PER_CELL
+    # Two triangles of each square between neighbouring points.
+    corner = ((np.arange(len(x))[:, None, None] * n + np.arange(n - 1)[:, None]) * n + np.arange(n - 1)).ravel()
+    triangles = np.concatenate([np.stack([corner, corner + n, corner + n + 1], 1), np.stack([corner, corner + n + 1, corner + 1], 1)])
+    a, b, c = np.moveaxis(x.reshape(-1, 2)[triangles], 1, 0)
+    areas = abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    limit = usual(stress.ravel()[triangles].max(axis=1), areas)
+    colours = axes.tripcolor(*moved.reshape(-1, 2).T, triangles, stress.ravel(), shading="gouraud", cmap="viridis",
+                             vmin=0, vmax=limit or 1, rasterized=True)
+    axes.add_collection(LineCollection(edges(moved).reshape(-1, n, 2), colors="white", linewidths=0.3 if len(x) < 400 else 0.1, rasterized=True))
+    axes.add_collection(LineCollection(outline(x), colors=GREY, linewidths=0.8, linestyles="dashed", zorder=0.5))
+    present = draw_states(result, axes, scale)
+    frame(axes, result, moved if scale == 1 else np.concatenate([moved, x]))
+    axes.set_title("deformed body" if scale == 1 else f"displacement {scale:g} times")
+    bar(axes, colours, label("von Mises stress", result.stress_unit, "stress"), stress.max() > limit)
+    key_of_states(axes, present)
+    remarks = [f"von Mises stress on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}; dashed: the body at rest"]
+    return remarks + (["the thick line: state of contact"] if present else [])
+
+
+def bar(axes, colours, words, is_cut):
+    """Below wide pictures, beside tall ones."""
+    ratio = np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())
+    is_wide = ratio < 0.7
+    made = axes.figure.colorbar(colours, ax=axes, label=words, extend="max" if is_cut else "neither", location="bottom" if is_wide else "right",
+                                aspect=30, shrink=0.9, pad=0.03)
+    made.locator = drawing_library().MaxNLocator(5)
+    made.update_ticks()
+
+
+def frame(axes, result, x):
+    low, high = x.reshape(-1, 2).min(axis=0), x.reshape(-1, 2).max(axis=0)
+    margin = 0.05 * (high - low).max()
+    axes.set(aspect="equal", xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin),
+             xlabel=label("x", result.length_unit, "length"), ylabel=label("y", result.length_unit, "length"))
+    axes.locator_params(nbins=5)
+
+
+def normals(line):
+    """Of a Line, up to their sign: across the way from point to point, as long as 1."""
+    if len(line.x) < 2:
+        return np.zeros_like(line.x)
+    way = np.gradient(line.x, axis=0)
+    way /= np.maximum(np.hypot(*way.T), 1e-300)[:, None]
+    return np.stack([way[:, 1], -way[:, 0]], axis=1)
+
+
+def motion(result, line):
+    """Displacement (n, 2) of the points of a line, of the body whose side it is."""
+    if line.get("displacement") is not None:
+        return line["displacement"]
+    if "." in line.boundary:
+        return result.u(line.x, body=line.boundary.split(".")[0])
+    return result.u(line.x)
+
+
+def opposite(line, u):
+    """Places at rest and displacements of the other body's points opposite those of a line, or None where there is none."""
+    if line.get("jump_normal") is None or line.get("master") is None or not str(line["master"][0]):
+        return None
+    n, jump = normals(line), np.stack([line["jump_normal"], line["jump_tangential"]], axis=1)
+    known = np.stack([line["normal_displacement"], line["tangential_displacement"]], axis=1)
+
+    def vector(sign, parts):  # t = (-n_y, n_x)
+        normal = sign * n
+        return parts[:, :1] * normal + parts[:, 1:] * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+
+    sign = min((1, -1), key=lambda one: np.nan_to_num(abs(vector(one, known) - u)).sum())
+    distance = np.nan_to_num(line["gap"] + line["jump_normal"]) if line.get("gap") is not None else np.zeros(len(n))
+    return line.x + sign * distance[:, None] * n, u - vector(sign, jump)
+
+
+def draw_states(result, axes, scale):
+    """Along each contact, on the line of each body. Returns the states that there are."""
+    present = []
+    for line in results.lines(result) if result.contact else []:
+        u = motion(result, line)
+        sides = [(line.x, u)] + [side for side in [opposite(line, u)] if side]
+        for x, displacement in sides:
+            moved = x + scale * displacement
+            ends = np.concatenate([moved[:1], (moved[:-1] + moved[1:]) / 2, moved[-1:]])
+            for k, state in enumerate(line["state"]):
+                present.append(str(state))
+            for first, last, state in runs(line):
+                path = np.concatenate([moved[first:first + 1] if first in line.starts else ends[first:first + 1], moved[first:last],
+                                       moved[last - 1:last] if last in line.starts else ends[last:last + 1]])
+                axes.plot(*path.T, color="white", linewidth=5, zorder=3, solid_capstyle="butt", clip_on=False)
+                axes.plot(*path.T, color=STATES[state], linewidth=3, zorder=4, solid_capstyle="butt", clip_on=False, gid=f"state of {line.name}")
+    return [state for state in STATES if state in present]
+
+
+def runs(line):
+    """(first, last + 1, state) of neighbours of one state in one piece."""
+    state = line["state"]
+    firsts = [k for k in range(len(state)) if k == 0 or k in line.starts or state[k] != state[k - 1]]
+    return [(first, last, str(state[first])) for first, last in zip(firsts, firsts[1:] + [len(state)])]
+
+
+def key_of_states(axes, present):
+    if not present:
+        return
+    from matplotlib.lines import Line2D
+    handles = [Line2D([], [], color=STATES[state], linewidth=4, label=state) for state in present]
+    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=len(present), handlelength=1.2, frameon=False)
+
+
+def mesh(result, axes):
+    """The cells with their polynomial degrees as colours, and as digits where there is room."""
+    from matplotlib.collections import PolyCollection
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+    x, degrees = result.grid(PER_CELL)["x"], result.mesh.degrees
+    loops = np.concatenate([x[:, 0, :-1], x[:, :-1, -1], x[:, -1, :0:-1], x[:, :0:-1, 0]], axis=1)
+    levels = np.arange(degrees.min(), degrees.max() + 2)
+    colours = ListedColormap([DEGREES[min(max(p, 1), 12) - 1] for p in levels[:-1]])
+    cells = PolyCollection(loops, array=degrees, cmap=colours, norm=BoundaryNorm(levels - 0.5, colours.N), edgecolors="#444444",
+                           linewidths=0.5 if len(x) < 400 else 0.15)
+    axes.add_collection(cells)
+    frame(axes, result, x)
+    is_wide = np.ptp(axes.get_ylim()) < 0.7 * np.ptp(axes.get_xlim())
+    axes.figure.colorbar(cells, ax=axes, ticks=levels[:-1], label="polynomial degree", location="bottom" if is_wide else "right", aspect=25, shrink=0.8)
+    width = axes.figure.get_figwidth() * 72 * 0.8 / max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
+    for cell, p in zip(x, degrees):
+        if width * min(np.ptp(cell[..., 0]), np.ptp(cell[..., 1])) > 11:
+            axes.text(*cell[PER_CELL // 2, PER_CELL // 2], str(p), ha="center", va="center", fontsize=8, color="black" if p < 6 else "white")
+    axes.set_title(f"mesh, {len(x)} cells")
+    return ["the mesh of the last step with the polynomial degrees of its cells"]
+
+
+# ------------------------------------------------------------------ in space
+
+
+def faces_in_view(x):
+    """Those of the surface that look to the viewer, farthest first: (cell, axis, end) each."""
+    low, size, m = x.reshape(-1, 3).min(axis=0), np.ptp(x), x.shape[1] // 2
+    viewer, places, middles, names, depths = np.cross(*PAPER), [], [], [], []
+    centre = x[:, m, m, m]
+    for axis in range(3):
+        for end in (0, -1):
+            face = np.take(x, end, axis=axis + 1)
+            places.append(face.reshape(-1, 3))
+            a, b, c = face[:, 0, 0], face[:, 0, -1], face[:, -1, 0]
+            normal = np.cross(b - a, c - a)
+            normal *= np.sign(((face[:, m, m] - centre) * normal).sum(axis=1))[:, None]
+            seen = np.flatnonzero(normal @ viewer > 1e-9 * np.linalg.norm(normal, axis=1))
+            middles.append(face[seen, m, m])
+            names += [(cell, axis, end) for cell in seen]
+    middles = np.concatenate(middles)
+    kept = np.flatnonzero(on_boundary(middles, np.concatenate(places), low, size))
+    depths = middles[kept] @ viewer
+    return [names[k] for k in kept[np.argsort(depths)]]
+
+
+def body_in_space(result, axes, scale=None):
+    from matplotlib.collections import PolyCollection
+    cells = result.grid(PER_CELL)
+    x, u, stress = cells["x"], cells["u"], von_mises(cells["stress"])
+    scale = round_scale(u, x) if scale is None else scale
+    quads, values = [], []
+    for cell, axis, end in faces_in_view(x):
+        flat = np.take(x[cell] + scale * u[cell], end, axis=axis) @ PAPER.T
+        colour = np.take(stress[cell], end, axis=axis)
+        quads.append(np.stack([flat[:-1, :-1], flat[1:, :-1], flat[1:, 1:], flat[:-1, 1:]], axis=2).reshape(-1, 4, 2))
+        values.append(((colour[:-1, :-1] + colour[1:, :-1] + colour[1:, 1:] + colour[:-1, 1:]) / 4).ravel())
+    quads, values = np.concatenate(quads), np.concatenate(values)
+    limit = usual(values, np.ones(len(values)))
+    surface = PolyCollection(quads, array=values, cmap="viridis", edgecolors="face", linewidths=0.3, rasterized=True)
+    surface.set_clim(0, limit or 1)
+    axes.add_collection(surface)
+    axes.autoscale_view()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    name_edges(axes, x, quads.reshape(-1, 2))
+    axes.set_title("deformed body, seen from below" if scale == 1 else f"displacement {scale:g} times, seen from below")
+    bar(axes, surface, label("von Mises stress", result.stress_unit, "stress"), values.max() > limit)
+    return [f"von Mises stress on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}, seen from below"]
+
+
+def name_edges(axes, x, drawn):
+    """Below and to the right of what is drawn of the body: where it begins and ends in each direction."""
+    low, high = x.reshape(-1, 3).min(axis=0), x.reshape(-1, 3).max(axis=0)
+    middle = (low + high) / 2
+    below, beside = (np.array(place) @ PAPER.T for place in ((middle[0], low[1], low[2]), (high[0], low[1], middle[2])))
+    right = drawn[:, 0].max(), (np.array((high[0], middle[1], high[2])) @ PAPER.T)[1]
+    for axis, place, offset, side in ((0, below, (-4, -8), {"ha": "right", "va": "top"}), (1, right, (5, 0), {"ha": "left", "va": "center"}),
+                                      (2, beside, (5, -5), {"ha": "left", "va": "top"})):
+        axes.annotate(f"{'xyz'[axis]}: {low[axis]:g} to {high[axis]:g}", place, offset, textcoords="offset points", annotation_clip=False, **side)
+
+
+def surface(result, axes, name=None, what="pressure"):
+    """Of one contact in space (by its name; without it all) what, "pressure" or "state", at its points, seen along the axis in which it extends least;
+    arrows are the friction on the body."""
+    columns = result.contact
+    if name is not None:
+        columns = results.where(columns, results.contacts(columns)[name])
+    x = np.stack([columns[axis] for axis in "xyz"], axis=1)
+    first, second = sorted(np.argsort(-np.ptp(x, axis=0), kind="stable")[:2])
+    place = x[:, first], x[:, second]
+    size = min(40., max(2., 9000 / len(x)))
+    if what == "state":
+        for state, colour in STATES.items():
+            own = columns["state"] == state
+            if own.any():
+                axes.scatter(place[0][own], place[1][own], s=size, c=colour, marker="s", linewidths=0, label=state, rasterized=len(x) > 2000)
+        friction = np.stack([columns["tangential_traction_" + "xyz"[d]] for d in (first, second)], axis=1)
+        largest = np.hypot(*friction.T).max()
+        if largest > 0:
+            some = np.flatnonzero(np.hypot(*friction.T) > 0.02 * largest)[::max(1, len(x) // 150)]
+            axes.quiver(place[0][some], place[1][some], *friction[some].T, width=0.004, color="#333333", scale=20 * largest)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=3, markerscale=2)
+        axes.set_title(f"state; friction up to {largest:.2g} {result.stress_unit}".rstrip() if largest > 0 else "state")
+    else:
+        pressure = -columns["normal_traction"]
+        limit = usual(pressure, np.ones(len(pressure)))
+        points = axes.scatter(*place, s=size, c=pressure, cmap="viridis", vmin=min(0, pressure.min()), vmax=limit or 1, marker="s", linewidths=0, rasterized=len(x) > 2000)
+        axes.figure.colorbar(points, ax=axes, label=label("pressure", result.stress_unit, "stress"), extend="max" if pressure.max() > limit else "neither",
+                             location="bottom", aspect=25)
+        axes.set_title("pressure")
+    axes.set(aspect="equal", xlabel=label("xyz"[first], result.length_unit, "length"), ylabel=label("xyz"[second], result.length_unit, "length"))
+    axes.locator_params(nbins=5)
+    return [f"contact {name}: {what}" if name else what]
+
+
+# ------------------------------------------------------------------ contact
+
+
+def closed_range(line):
+    """Where the axis begins and ends that shows what is not open, None where the whole is readable."""
+    closed = [(begin, end) for state, begin, end in line.stretches() if state != "open"]
+    if not closed or len(line.s) < 2:
+        return None
+    low, high = min(begin for begin, _ in closed), max(end for _, end in closed)
+    whole = line.s[-1] - line.s[0]
+    if not 0 < high - low < 0.4 * whole:
+        return None
+    margin = 0.15 * (high - low)
+    return max(low - margin, line.s[0]), min(high + margin, line.s[-1])
+
+
+def friction_limit(line):
+    """The largest friction at each point [stress]: what it is, over the share of it that the multiplier tells; NaN where that is too small."""
+    share = abs(line["multiplier"].astype(float))
+    return np.where(share > 1e-3, abs(line["tangential_traction"]) / np.maximum(share, 1e-3), math.nan)
+
+
+def contact(result, axes, line=None):
+    """Pressure and friction [stress] of one contact over its arc length, and where it is open, slips and sticks. Without line: all contacts. Beside a
+    singular end the axis ends where 3 % of the length are above; marks say what lies beyond."""
+    if line is None:
+        every = results.lines(result)
+        if len(every) > 1:
+            return several_contacts(result, axes, every)
+        line, = every
+    has_friction = bool((line["tangential_traction"] != 0).any())
+    window = closed_range(line)
+    axes.plot(line.broken(line.s), line.broken(line.pressure), "-", color=BLACK, label="pressure")
+    if has_friction:
+        friction, limit = line["tangential_traction"], friction_limit(line)
+        axes.plot(line.broken(line.s), line.broken(friction), "--", color=GREEN, label="friction")
+        for sign, words in ((1, "limit of friction"), (-1, None)):
+            axes.plot(line.broken(line.s), line.broken(sign * limit), ":", color=GREY, label=words)
+    values = [line.pressure] + ([line["tangential_traction"]] if has_friction else [])
+    window = window or (line.s[0], line.s[-1])
+    remarks = cut(axes, line, values, window, result.stress_unit)
+    if window[0] < window[1]:
+        axes.set_xlim(*window)
+    band(axes, line)
+    if window[1] - window[0] < 0.9 * (line.s[-1] - line.s[0]):
+        strip(axes, line, window, result.length_unit)
+        remarks.append("the strip above shows the whole contact and the part that is drawn")
+    finish(axes, line.title, result)
+    return [f"contact {line.title} over its arc length"] + remarks
+
+
+def several_contacts(result, axes, every):
+    """Pressures in one colour each, friction dashed."""
+    remarks = []
+    bounds = []
+    for k, line in enumerate(every):
+        axes.plot(line.broken(line.s), line.broken(line.pressure), "-", color=f"C{k}", label=f"pressure, {line.title}")
+        axes.plot(line.broken(line.s), line.broken(line["tangential_traction"]), "--", color=f"C{k}", label=f"friction, {line.title}")
+        bounds += [sign * usual((sign * values).clip(0), line.weights(), 0.97, 1.5) for values in (line.pressure, line["tangential_traction"]) for sign in (1, -1)]
+    low, high = min(bounds), max(bounds)
+    if low < high:
+        axes.set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
+    finish(axes, "contact", result, columns=1)
+    return remarks
+
+
+def finish(axes, title, result, columns=3):
+    axes.axhline(0, color=BLACK, linewidth=0.6, zorder=0)
+    axes.set(xlabel=label("arc length", result.length_unit, "length"), ylabel=label("traction", result.stress_unit, "stress"))
+    axes.set_title(title, pad=18 if axes.child_axes else 6)
+    axes.locator_params(axis="x", nbins=6)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=columns, columnspacing=1.2, handlelength=1.8)
+
+
+def cut(axes, line, values, window, unit):
+    """Ends the axis where few values are beyond, and marks these: triangles at its end, with the largest one. Returns what to say of them."""
+    inside = (line.s >= window[0]) & (line.s <= window[1])
+    weights = line.weights() * inside
+    high = max(usual(v.clip(0), weights, 0.97, 1.5) for v in values)
+    low = min(-usual((-v).clip(0), weights, 0.97, 1.5) for v in values)
+    if not low < high:
+        return []
+    room = 0.15 * (high - low)
+    low, high = low - (room if low < 0 else 0), high + (room if high > 0 else 0)
+    axes.set_ylim(low - 0.08 * (high - low), high)
+    remarks, written = [], {}
+    for name, v in zip(("pressure", "friction"), values):
+        for sign, end in ((1, high), (-1, low)):
+            beyond = np.flatnonzero(inside & (sign * v > sign * end))
+            for group in groups(beyond, line.s, 0.1 * (window[1] - window[0])):
+                worst = group[np.argmax(sign * v[group])]
+                is_right = line.s[worst] > sum(window) / 2
+                axes.plot([line.s[worst]], [end], marker="^" if sign > 0 else "v", color=ORANGE, clip_on=False, zorder=5, markersize=6, linestyle="none")
+                below = written[sign, is_right] = written.get((sign, is_right), -1) + 1  # one under the other
+                axes.annotate(f"{name} {digits(v[worst], 3)}", (line.s[worst], end), (-7 if is_right else 7, -sign * (2 + 11 * below)), textcoords="offset points", color=ORANGE,
+                              ha="right" if is_right else "left", va="top" if sign > 0 else "bottom", annotation_clip=False)
+                remarks.append(f"beyond the axis: {name} up to {digits(v[worst], 3)} {unit}".rstrip() + f" at ({line.x[worst][0]:.4g}, {line.x[worst][1]:.4g})")
+    return remarks
+
+
+def groups(numbers, s, apart):
+    """Neighbours that are nearer than apart."""
+    found = []
+    for k in numbers:
+        if found and s[k] - s[found[-1][-1]] <= apart:
+            found[-1].append(k)
+        else:
+            found.append([k])
+    return [np.array(group) for group in found]
+
+
+def band(axes, line):
+    """The states, along the lower end of the axes."""
+    seen = set()
+    for state, begin, end in line.stretches():
+        axes.axvspan(begin, end, ymin=0, ymax=0.045, color=STATES[state], linewidth=0, label=None if state in seen else state, gid=f"state {state}")
+        seen.add(state)
+
+
+def strip(axes, line, window, unit):
+    """The states of the whole above the axes, and the part that these show."""
+    whole = axes.inset_axes([0, 1.03, 1, 0.04])
+    for state, begin, end in line.stretches():
+        whole.axvspan(begin, end, color=STATES[state], linewidth=0)
+    whole.axvspan(*window, facecolor="none", edgecolor=BLACK, linewidth=1.2, clip_on=False)
+    whole.set(xlim=(line.s[0], line.s[-1]), yticks=[], xticks=[])
+    whole.text(1, 1.3, f"whole: {line.s[-1] - line.s[0]:.4g} {unit}".rstrip(), transform=whole.transAxes, ha="right", va="bottom", fontsize=8)
+    for side in ("left", "bottom"):
+        whole.spines[side].set_visible(False)
+
+
+# ------------------------------------------------------------------ errors
+
+
+def error_columns(result):
+    """(words, colour, style, values) of each error that is known in some step, relative to the solution in the energy norm."""
+    table = dict(result.steps)
+    kinds = set(table.get("bound_kind", np.array([]))) - {""}
+    is_energy = kinds <= {"energy"}
+    if not is_energy and "error_estimate_equilibrated" in table:
+        table["estimate_equilibrated_relative"] = table["error_estimate_equilibrated"] / table["energy_norm"]
+    found = []
+    for column, (words, colour, style) in ERRORS.items():
+        values = table.get(column)
+        if column == "error_bound_relative" and not is_energy:
+            words = "bound, if the coupling is as estimated"
+        if values is not None and np.isfinite(np.asarray(values, float)).any():
+            found.append((words, colour, style, np.asarray(values, float)))
+    return found
+
+
+def convergence(result, axes):
+    """Relative errors over the number of unknowns; of a load history at the end of each load step, over their number."""
+    table, is_history = result.steps, "load_step" in result.steps and bool(result.loading)
+    kept = np.isin(table["step"], result.loading["step"]) if is_history else np.ones(len(table["step"]), bool)
+    x = table["load_step"][kept] if is_history else table["dofs_free"][kept]
+    for words, colour, style, values in error_columns(result):
+        known = np.isfinite(values[kept]) & (values[kept] > 0)  # not each step need have its bound
+        if known.any():
+            draw = axes.semilogy if is_history else axes.loglog
+            draw(x[known], values[kept][known], style, color=colour, markersize=4, label=words)
+    axes.set(xlabel="load step" if is_history else "free unknowns", ylabel="error over the solution", title="convergence")
+    axes.grid(True, which="major", linewidth=0.3)
+    decades(axes, is_history)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=2)
+    return ["how the error falls from step to step, in the energy norm, over that of the solution" if not is_history
+            else "the error at the end of each load step, in the energy norm, over that of the solution"]
+
+
+def decades(axes, is_history):
+    """At least one decade, whose ends have numbers."""
+    for axis, limits, set_limits in ((axes.yaxis, axes.get_ylim(), axes.set_ylim),) + (() if is_history else ((axes.xaxis, axes.get_xlim(), axes.set_xlim),)):
+        low, high = np.log10(limits)
+        if high - low < 1.2:
+            set_limits(10 ** math.floor(low), 10 ** math.ceil(high))
+        axis.set_minor_formatter(drawing_library().NullFormatter())
+    if is_history:
+        axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+
+
+# ------------------------------------------------------------------ load histories
+
+
+def loop(result, axes, boundary, component):
+    """Force over displacement of a boundary whose displacement changes; component: x, y or z."""
+    x, y = result.loading[f"displacement_{boundary}_{component}"], result.loading[f"force_{boundary}_{component}"]
+    axes.plot(x, y, "o-", color=BLUE, markersize=3, linewidth=1)
+    axes.plot(x[-1:], y[-1:], "o", color=ORANGE, markersize=6, label="end")
+    force = getattr(result, "force_unit", results.unit_of_load(result.stress_unit, result.length_unit, False))
+    axes.set(xlabel=label(f"$u_{component}$ of {boundary}", result.length_unit, "length"), ylabel=label(f"force {component} on {boundary}", force, "force"),
+             title=f"force over displacement, {boundary}")
+    axes.legend(loc="best")
+    return [f"force over displacement of {boundary}; the area of a loop is what a cycle takes"]
+
+
+def loops(result):
+    """(boundary, component) of those whose prescribed displacement changes from load step to load step."""
+    found = []
+    for name, values in result.loading.items():
+        if name.startswith("displacement_") and f"force_{name[13:]}" in result.loading:
+            if np.ptp(values) > 1e-9 * abs(values).max() and len(values) > 1:
+                found.append((name[13:-2], name[-1]))
+    return found
+
+
+def energies(result, axes):
+    """Work of the loads, what is stored, and what friction dissipates, over the load steps."""
+    table = result.loading
+    for column, words, colour, style in (("work", "work", BLACK, "-"), ("stored_energy", "stored", BLUE, "--"), ("dissipated_energy", "dissipated", ORANGE, ":")):
+        axes.plot(table["load_step"], table[column], style, color=colour, label=words)
+    moment = getattr(result, "moment_unit", results.unit_of_load(result.stress_unit, result.length_unit, True))
+    axes.set(xlabel="load step", ylabel=label("energy", moment, "energy"), title="energies")
+    axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=3)
+    return ["work of the loads, and what became of it"]
+
+
+def cycles(result, axes):
+    """What friction dissipates in each cycle."""
+    axes.plot(result.cycles["cycle"], result.cycles["dissipated_energy"], "o-", color=ORANGE)
+    moment = getattr(result, "moment_unit", results.unit_of_load(result.stress_unit, result.length_unit, True))
+    axes.set(xlabel="cycle", ylabel=label("dissipated energy", moment, "energy"), title="cycles")
+    axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+    return ["what friction dissipates in each cycle"]
+
+
+def load_steps(run, axes, name, what="pressure", most=6):
+    """Pressure or friction of one contact at the ends of load steps, in one chart: most of them, dark the last one. Of a Run with the files of all steps."""
+    numbers = np.unique(np.linspace(0, len(run.loading["step"]) - 1, most).round().astype(int))
+    colours = drawing_library().get_cmap("viridis_r")(np.linspace(0.1, 1, len(numbers)))
+    values = []
+    for k, colour in zip(numbers, colours):
+        line = next((one for one in run.lines_of(run.loading["step"][k]) if one.name == name), None)
+        if line is None:
+            continue
+        y = line.pressure if what == "pressure" else line["tangential_traction"]
+        values += [usual(y.clip(0), line.weights(), 0.97, 1.5), -usual((-y).clip(0), line.weights(), 0.97, 1.5)]
+        axes.plot(line.broken(line.s), line.broken(y), color=colour, linewidth=1.2, label=f"{run.loading['load_step'][k]}")
+    if values and min(values) < max(values):
+        room = 0.1 * (max(values) - min(values))
+        axes.set_ylim(min(values) - room, max(values) + room)
+    axes.set(xlabel=label("arc length", run.length_unit, "length"), ylabel=label(what, run.stress_unit, "stress"), title=f"{what}, {name}")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=6, title="at the end of load step", handlelength=1, columnspacing=1)
+    return [f"{what} of contact {name} at the ends of load steps"]
+
+
+def history(result, axes, name, columns, words):
+    """Columns of contact-history.csv of one contact over its arc length: {column: words}; words: of the axis."""
+    table = result.contact_history
+    line = results.Line(name, results.where(table, results.contacts(table)[name]))
+    for (column, what), style, colour in zip(columns.items(), ("-", "--", ":"), (BLACK, ORANGE, BLUE)):
+        axes.plot(line.broken(line.s), line.broken(line[column]), style, color=colour, label=what)
+    axes.set(xlabel=label("arc length", result.length_unit, "length"), ylabel=words, title=f"history, {name}")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=3)
+    return [f"contact {name} over its arc length, up to the end of the history"]
+
+
+def probe(result, axes, name):
+    """Along a line through the body: von Mises stress and displacement."""
+    table = result.probe_lines[name]
+    way = np.stack([table[axis] for axis in "xyz" if axis in table], axis=1)
+    s = np.linalg.norm(way - way[0], axis=1)
+    second = axes.twinx()
+    second.spines["right"].set_visible(True)
+    stress, = axes.plot(s, table["mises"], "-", color=BLACK, label="von Mises stress")
+    size = np.sqrt(sum(table[f"u{axis}"] ** 2 for axis in "xyz" if f"u{axis}" in table))
+    moved, = second.plot(s, size, "--", color=BLUE, label="displacement")
+    axes.set(xlabel=label("length along the probe", result.length_unit, "length"), ylabel=label("von Mises stress", result.stress_unit, "stress"), title=f"probe {name}")
+    second.set_ylabel(label("displacement", result.length_unit, "length"))
+    axes.legend(handles=[stress, moved], loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=2)
+    return [f"along the probe {name}"]

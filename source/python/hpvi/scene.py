@@ -1,0 +1,410 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a scene says, as a picture: of scene.json, which `hpvi --picture SCENE.prm` and `hpvi --report DIR` write."""
+import io
+import math
+import textwrap
+
+import numpy as np
+
+from .results import label, pretty
+from .words import digits
+
+GROUND, LOAD, SUPPORT, CONTACT, PROBE, GREY = "#222222", "#b8500a", "#0072b2", "#00704f", "#8a2be2", "#666666"
+MATERIALS = ("#e6edf5", "#f6d9a8", "#b5d6c3", "#d9c3e0", "#a9c4e6", "#efe98f", "#c9c9c9", "#f2bfb4")  # told apart by lightness as well
+FONT, LINE = 8.5, 10.5  # points
+
+
+class Part:
+    """A part of a boundary, the body on its left: places (n, 2), outer normals, lengths along it."""
+
+    def __init__(self, own):
+        self.x = np.array(own["x"], float)
+        steps = np.diff(self.x, axis=0)
+        self.s = np.append(0, np.hypot(*steps.T).cumsum())
+        self.data = {name: None if own[name] is None else np.array(own[name], float) for name in ("gap", "traction", "displacement")}
+
+    def at(self, s):
+        """Places and outer normals at lengths s (m,)."""
+        x = np.stack([np.interp(s, self.s, self.x[:, d]) for d in (0, 1)], axis=1)
+        k = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, len(self.s) - 2)
+        way = self.x[k + 1] - self.x[k]
+        way /= np.hypot(*way.T)[:, None]
+        return x, np.stack([way[:, 1], -way[:, 0]], axis=1)
+
+    def along(self, spacing, with_ends=False):
+        """Equidistant lengths, spacing or so from each other."""
+        n = max(1, round(self.s[-1] / spacing))
+        return np.linspace(0, self.s[-1], n + 1) if with_ends else (np.arange(n) + 0.5) * self.s[-1] / n
+
+    def values(self, name, s):
+        data = self.data[name]
+        if data.ndim == 1:
+            return np.interp(s, self.s, data)
+        return np.stack([np.interp(s, self.s, data[:, d]) for d in (0, 1)], axis=1)
+
+
+class Sheet:
+    """Marks in units of a hundredth of the body's longer side, and boxes of words that find places beside them."""
+
+    def __init__(self, scene, axes):
+        self.scene, self.axes = scene, axes
+        corners = np.concatenate([np.array(cell["outline"], float) for cell in scene["cells"]])
+        self.low, self.high = corners.min(axis=0), corners.max(axis=0)
+        self.u = (self.high - self.low).max() / 100
+        self.notes, self.marks = [], []
+
+    def line(self, x, **style):
+        self.marks.append(np.asarray(x))
+        return self.axes.plot(*np.asarray(x).T, clip_on=False, **style)
+
+    def strokes(self, begins, ends, **style):
+        from matplotlib.collections import LineCollection
+        self.marks += [np.asarray(begins), np.asarray(ends)]
+        self.axes.add_collection(LineCollection(np.stack([begins, ends], axis=1), clip_on=False, **style))
+
+    def arrow(self, tail, head, colour, is_open=False, gid=None):
+        self.marks.append(np.array([tail, head]))
+        made = self.axes.annotate("", head, tail, annotation_clip=False, arrowprops=dict(
+            arrowstyle="->" if is_open else "-|>", color=colour, shrinkA=0, shrinkB=0, mutation_scale=7, linewidth=1))
+        made.set_gid(gid)
+
+    def ground(self, x, n, **style):
+        """A line with short strokes that lean, on its outer side."""
+        self.line(x, color=GROUND, **{"linewidth": 1.3, **style})
+        s = np.append(0, np.hypot(*np.diff(x, axis=0).T).cumsum())
+        places = np.arange(self.u, s[-1], 2.2 * self.u)
+        at, out = (np.stack([np.interp(places, s, values[:, d]) for d in (0, 1)], axis=1) for values in (x, n))
+        lean = out * 1.7 * self.u + np.stack([-out[:, 1], out[:, 0]], axis=1) * 1.3 * self.u
+        self.strokes(at, at + lean, color=GROUND, linewidth=0.7)
+
+    def note(self, place, outward, lines, gid=None):
+        """lines: (words, colour, is bold)."""
+        self.notes.append((np.asarray(place, float), np.asarray(outward, float), lines, gid))
+
+
+# ------------------------------------------------------------------ marks: each begins `band` outside of the body and returns where it ends
+
+
+def draw_supports(sheet, boundary, part, band):
+    u = sheet.u
+    if boundary["held"] == [True, True]:
+        x, n = part.at(part.along(2 * u, True))
+        sheet.ground(x + (band + 0.5 * u) * n, n, linewidth=2)
+        band += 3.5 * u
+    elif any(boundary["held"]):
+        axis = np.array(boundary["held"], float)
+        x, n = part.at(part.along(min(14 * u, part.s[-1] / 2)))
+        for place, normal in zip(x, n):
+            way = axis if axis @ normal >= -1e-9 else -axis
+            is_beside = way @ normal < 0.5
+            tip = place + (band + (2.5 if is_beside else 0.3) * u) * normal
+            across = np.array([-way[1], way[0]])
+            sheet.line([tip, tip + 2.4 * u * way + 1.5 * u * across, tip + 2.4 * u * way - 1.5 * u * across, tip], color=GROUND, linewidth=1)
+            sheet.line([tip + 3.2 * u * way - 2 * u * across, tip + 3.2 * u * way + 2 * u * across], color=GROUND, linewidth=1)
+        band += 5.5 * u
+    if boundary["symmetry"]:
+        x, n = part.at(part.along(2 * u, True))
+        sheet.line(x + (band + u) * n, color=GROUND, linewidth=1.1, linestyle="-.")
+        band += 2.5 * u
+    if boundary["spring"]:
+        band = draw_springs(sheet, part, band)
+    return draw_plate(sheet, boundary["plate"], part, band) if boundary["plate"] else band
+
+
+def draw_springs(sheet, part, band):
+    u = sheet.u
+    x, n = part.at(part.along(7 * u))
+    shape = np.array([(0, 0), (1, 1), (2, -1), (3, 1), (4, -1), (5, 0), (6, 0)])
+    for place, normal in zip(x, n):
+        across = np.array([-normal[1], normal[0]])
+        sheet.line(place + band * normal + shape[:, :1] * u * normal + shape[:, 1:] * u * across, color=GROUND, linewidth=0.9)
+    x, n = part.at(part.along(2 * u, True))
+    sheet.ground(x + (band + 6 * u) * n, n)
+    return band + 9 * u
+
+
+def draw_plate(sheet, plate, part, band):
+    u = sheet.u
+    x, n = part.at(part.along(2 * u, True))
+    sheet.axes.fill(*np.concatenate([x + (band + 0.3 * u) * n, (x + (band + 2.3 * u) * n)[::-1]]).T, color=GROUND, linewidth=0)
+    band += 2.6 * u
+    place, normal = (values[0] for values in part.at(np.array([part.s[-1] / 2])))
+    force = np.array(plate["force"])
+    if force.any():
+        way = 10 * u * force / np.hypot(*force)
+        tip = place + band * normal
+        pushes = way @ normal < 0
+        sheet.arrow(tip - way if pushes else tip, tip if pushes else tip + way, LOAD, gid="plate")
+        band += max(u, abs(way @ normal))
+    if plate["moment"]:
+        across = np.array([-normal[1], normal[0]])
+        angle = np.linspace(0, math.pi, 21)[::1 if plate["moment"] > 0 else -1]
+        arc = place + band * normal - 4 * u * np.cos(angle)[:, None] * across + 4 * u * np.sin(angle)[:, None] * normal
+        sheet.line(arc, color=LOAD, linewidth=1.2)
+        sheet.arrow(arc[-4], arc[-1], LOAD)
+        band += 5 * u
+    return band
+
+
+def gap_scale(sheet, boundary):
+    """How many times as wide gaps are drawn: they are seen, and not larger than the body."""
+    widest = max((abs(part.data["gap"]).max() for part in boundary["drawn"] if part.data["gap"] is not None), default=0) / sheet.u
+    if widest == 0 or 2 <= widest <= 18:
+        return 1.
+    wanted = 6 / widest if widest < 2 else 18 / widest
+    decade = 10. ** math.floor(math.log10(wanted))
+    return decade * math.floor(wanted / decade)
+
+
+def draw_contact(sheet, boundary, part, band):
+    u, kind = sheet.u, boundary["contact"]
+    if not kind:
+        return band
+    s = part.along(1.5 * u, True)
+    x, n = part.at(s)
+    sheet.line(x, color=CONTACT, linewidth=2.2, gid=f"contact {boundary['name']}")
+    if boundary["pair"]:
+        return band  # the other body takes the place of a foundation
+    gap = part.values("gap", s) * gap_scale(sheet, boundary) if part.data["gap"] is not None else np.zeros(len(s))
+    way = np.array(boundary["direction"]) if boundary["direction"] else n
+    far = band + (2.5 if kind == "bilateral" else 1.2) * u
+    line = x + far * n + gap[:, None] * way
+    sheet.ground(line, np.broadcast_to(way, n.shape), linestyle="--" if kind == "tangential" else "-", gid=f"foundation {boundary['name']}")
+    if kind == "bilateral":
+        places, out = part.at(part.along(6 * u))
+        sheet.axes.plot(*(places + (band + 1.3 * u) * out).T, "o", color="white", markeredgecolor=GROUND, markersize=3.2, clip_on=False)
+    return far + max(0., ((gap[:, None] * way) * n).sum(axis=1).max()) + 2.5 * u
+
+
+def draw_vectors(sheet, boundary, part, band, name, colour, largest):
+    """Arrows to scale beside other boundaries; a small one is as long as one can see: its size stands beside it."""
+    u, data = sheet.u, part.data[name]
+    if data is None or not data.any():
+        return band
+    own = np.hypot(*data.T).max()
+    length = max(5., 14 * own / largest) * u / own
+    s = part.along(8 * u, True)
+    if np.hypot(*part.values(name, s).T).max() < 0.9 * own:  # it is narrow
+        s = np.append(s, part.s[np.hypot(*data.T).argmax()])
+    x, n = part.at(s)
+    deepest = band
+    for place, normal, value in zip(x, n, part.values(name, s)):
+        vector = length * value
+        if np.hypot(*vector) < 0.8 * u:
+            continue
+        share = vector @ normal / np.hypot(*vector)
+        if abs(share) < 0.2:
+            tail = place + (band + 2 * u) * normal - vector / 2
+        else:
+            tail = place + (band + 0.7 * u) * normal - (vector if share < 0 else 0)
+        sheet.arrow(tail, tail + vector, colour, name == "displacement", gid=f"{name} {boundary['name']}")
+        deepest = max(deepest, (tail - place) @ normal, (tail + vector - place) @ normal)
+    return deepest + 1.5 * u
+
+
+def words_of(sheet, boundary):
+    name = boundary["name"] + (f"  (curves {boundary['curves']})" if boundary["curves"] else "")
+    lines = [(name, "black", True)]
+    if sheet.is_brief:
+        return lines + [(words, LOAD, False) for words in boundary["loads"]]
+    lines += [(words, SUPPORT, False) for words in boundary["supports"]] + [(words, CONTACT, False) for words in boundary["contacts"]]
+    if (times := gap_scale(sheet, boundary)) != 1:
+        lines.append((f"(gap drawn {digits(times, 4)} times as wide)", GREY, False))
+    lines += [(words, LOAD, False) for words in boundary["loads"]]
+    return lines if len(lines) > 1 or boundary["pair"] else lines + [("free", GREY, False)]
+
+
+def draw_boundaries(sheet):
+    scene = sheet.scene
+    for boundary in scene["boundaries"]:
+        boundary["drawn"] = [Part(own) for own in boundary["parts"]]
+    largest = {name: max((np.hypot(*part.data[name].T).max() for boundary in scene["boundaries"] for part in boundary["drawn"]
+                          if part.data[name] is not None), default=1) for name in ("traction", "displacement")}
+    for boundary in scene["boundaries"]:
+        longest = max(boundary["drawn"], key=lambda part: part.s[-1])
+        for part in boundary["drawn"]:
+            sheet.line(part.x, color="#333333", linewidth=1.1)
+            band = draw_contact(sheet, boundary, part, draw_supports(sheet, boundary, part, 0.))
+            for name, colour in (("traction", LOAD), ("displacement", SUPPORT)):
+                band = draw_vectors(sheet, boundary, part, band, name, colour, largest[name])
+            if part is longest and boundary["name"]:
+                place, normal = (values[0] for values in part.at(np.array([part.s[-1] / 2])))
+                sheet.note(place + band * normal, normal, words_of(sheet, boundary), f"boundary {boundary['name']}")
+
+
+# ------------------------------------------------------------------ inside of the body
+
+
+def draw_cells(sheet):
+    from matplotlib.collections import PolyCollection
+    cells = sheet.scene["cells"]
+    sheet.axes.add_collection(PolyCollection([cell["outline"] for cell in cells], facecolors=[MATERIALS[cell["material"] % 8] for cell in cells],
+                                             edgecolors="#8a97a6", linewidths=0.5 if len(cells) < 500 else 0.2, gid="cells"))
+    drawn = {}
+    for cell in cells:  # axes of orthotropic materials, so far from each other that they are told apart
+        centre = np.mean(cell["outline"], axis=0)
+        others = drawn.setdefault(cell["material"], [])
+        if cell["angle"] is None or any(np.hypot(*(centre - other)) < 9 * sheet.u for other in others):
+            continue
+        others.append(centre)
+        angle = math.radians(cell["angle"])
+        one, two = 3 * sheet.u * np.array([math.cos(angle), math.sin(angle)]), 1.2 * sheet.u * np.array([-math.sin(angle), math.cos(angle)])
+        sheet.strokes([centre - one, centre - two], [centre + one, centre + two], color="#55606e", linewidths=[1.2, 0.7])
+
+
+def draw_loads_inside(sheet):
+    force = sheet.scene["body_force"]
+    if force:
+        mean, centre = np.array(force["mean"]), np.array(force["centre"])
+        if mean.any():
+            sheet.arrow(centre, centre + 14 * sheet.u * mean / np.hypot(*mean), LOAD, gid="body force")
+        sheet.note(centre, (0, 1. if mean[1] <= 0 else -1.), [(force["words"], LOAD, False)])
+    for cut in sheet.scene["pretensions"]:
+        ends, normal = np.array([cut["from"], cut["to"]]), np.array(cut["normal"])
+        sheet.line(ends, color=LOAD, linewidth=1.6, linestyle="--")
+        for side in (-1, 1):
+            sheet.arrow(ends.mean(axis=0) + side * sheet.u * normal, ends.mean(axis=0) + side * 8 * sheet.u * normal, LOAD, gid=f"pretension {cut['name']}")
+        way = ends[1] - ends[0]
+        sheet.note(ends[1], way / np.hypot(*way), [(cut["name"], LOAD, True), (cut["words"], LOAD, False)])
+
+
+def draw_probes(sheet):
+    from matplotlib.patches import Circle
+    for probe in sheet.scene["probes"]:
+        place, outward = np.array(probe["at"]), np.array([0.7, 0.7])
+        if probe["kind"] == "point":
+            sheet.axes.plot(*place, "x", color=PROBE, markersize=6, gid=f"probe {probe['name']}")
+        elif probe["kind"] == "disc":
+            sheet.axes.add_patch(Circle(place, probe["size"], fill=False, edgecolor=PROBE, linewidth=1.2, gid=f"probe {probe['name']}"))
+        elif probe["kind"] == "line":
+            ends = np.array([probe["from"], probe["to"]])
+            place, outward = ends.mean(axis=0), np.array([0., 1.])
+            sheet.line(ends, color=PROBE, linewidth=1.3, linestyle=":", gid=f"probe {probe['name']}")
+        else:
+            for boundary in sheet.scene["boundaries"]:
+                for part in boundary["drawn"] if boundary["name"] in probe["on"] else []:
+                    x, n = part.at(part.along(2 * sheet.u, True))
+                    sheet.line(x - 1.2 * sheet.u * n, color=PROBE, linewidth=1.3, gid=f"probe {probe['name']}")
+                    place, outward = x[len(x) // 3] - 1.2 * sheet.u * n[len(x) // 3], -n[len(x) // 3]
+        sheet.note(place, outward, [(probe["name"], PROBE, False)])
+
+
+# ------------------------------------------------------------------ words
+
+
+def extents(lines, scale):
+    """Width and height of a box of lines [length]; scale: length per point."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import TextPath
+    widths = [TextPath((0, 0), words or " ", size=FONT, prop=FontProperties(weight="bold" if is_bold else "normal")).get_extents().x1 for words, _, is_bold in lines]
+    return np.array([max(widths), LINE * len(lines)]) * scale
+
+
+def overlaps(box, others):
+    return any((box[0] < other[1]).all() and (box[1] > other[0]).all() for other in others)
+
+
+def crossed(box, marks):
+    return bool(((marks > box[0]) & (marks < box[1])).all(axis=1).any())
+
+
+def place_notes(sheet, scale):
+    """Each as near to its place as there is room: (note, low corner, size)."""
+    placed, boxes = [], []
+    marks = np.concatenate([dense(mark) for mark in sheet.marks]) if sheet.marks else np.zeros((0, 2))
+    for note in sheet.notes:
+        place, outward, lines, _ = note
+        size = extents(lines, scale)
+        across = np.array([-outward[1], outward[0]])
+        for reach in range(60):
+            centres = [place + outward * (abs(outward) @ size / 2 + (4 + 3 * (reach // 3)) * scale) + across * side * (reach % 3) * 0.5 * (abs(across) @ size)
+                       for side in (1, -1)]
+            boxes_here = [(centre - size / 2, centre + size / 2) for centre in centres]
+            free = [box for box in boxes_here if not overlaps(box, boxes) and not crossed(box, marks)]
+            if free:
+                break
+        box = (free or boxes_here)[0]
+        boxes.append(box)
+        placed.append((note, *box))
+    return placed
+
+
+def dense(mark):
+    """Points along a line, so that a word does not lie between two of them."""
+    if len(mark) < 2 or len(mark) > 40:
+        return mark
+    t = np.linspace(0, 1, 12)[:, None]
+    return np.concatenate([a + t * (b - a) for a, b in zip(mark, mark[1:])])
+
+
+def write_notes(sheet, placed, scale):
+    for (place, _, lines, gid), low, high in placed:
+        nearest = np.clip(place, low, high)
+        if np.hypot(*(nearest - place)) > 14 * scale:
+            sheet.axes.plot(*np.array([place, nearest]).T, color=GREY, linewidth=0.5, clip_on=False)
+        for k, (words, colour, is_bold) in enumerate(lines):
+            sheet.axes.text((low[0] + high[0]) / 2, high[1] - (k + 0.8) * LINE * scale, words, color=colour, fontsize=FONT, ha="center", va="baseline",
+                            weight="bold" if is_bold else "normal", gid=gid, clip_on=False, parse_math=False)
+
+
+def scene(data, axes, is_brief=False):
+    """The scene of scene.json, a dictionary: the body with its coarse mesh, supports, contact, gaps, loads as arrows, probes, each with its words and sizes.
+
+    is_brief: names and loads alone, where the words stand beside the picture. Returns remarks. Of a load history it is the end, t = 1. Raises ValueError for a scene in space."""
+    if data["dimension"] != 2:
+        raise ValueError("Dimension = 3: pictures show scenes in the plane alone")
+    sheet = Sheet(data, axes)
+    sheet.is_brief = is_brief
+    draw_cells(sheet)
+    draw_boundaries(sheet)
+    draw_loads_inside(sheet)
+    draw_probes(sheet)
+    key = key_of_materials(axes, data["materials"])
+    width, height = axes.figure.get_size_inches() * 72 - np.array([62., 70. + (LINE + 2) * key])
+    low, high = sheet.low - 12 * sheet.u, sheet.high + 12 * sheet.u
+    most = 1.8 * max((high - low) / (width, height))  # else words push each other away until the body is a dot
+    for _ in range(4):  # the size of words changes that of the picture
+        scale = min(max((high - low) / (width, height)), most)
+        placed = place_notes(sheet, scale)
+        everything = np.concatenate([sheet.low[None], sheet.high[None], *sheet.marks, *[np.array(box) for _, *box in placed]])
+        low, high = everything.min(axis=0) - sheet.u, everything.max(axis=0) + sheet.u
+    placed = place_notes(sheet, scale)
+    write_notes(sheet, placed, scale)
+    middle, half = (low + high) / 2, np.minimum(high - low, scale * np.array([width, height])) / 2
+    low, high = middle - half, middle + half
+    length = pretty(data["units"]["length"])
+    axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel=label("x", length, "length"), ylabel=label("y", length, "length"))
+    axes.locator_params(nbins=5)
+    return ["what the scene says" + (", at the end of its load history, t = 1" if data["history"] else "")]
+
+
+def key_of_materials(axes, materials):
+    """Returns the number of its lines; they are no longer than the picture is wide."""
+    from matplotlib.patches import Patch
+    if len(materials) < 2:
+        return 0
+    width = int(axes.figure.get_figwidth() * 72 / 5) - 12
+    labels = ["\n".join(textwrap.wrap(f"{one['name']}: {one['words']}", width)) for one in materials]
+    axes.legend(handles=[Patch(facecolor=MATERIALS[one["number"] % 8], edgecolor=GROUND, label=words) for one, words in zip(materials, labels)],
+                loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, frameon=False, fontsize=FONT, handlelength=1.4)
+    return sum(words.count("\n") + 1 for words in labels)
+
+
+def scene_svg(data):
+    """A picture of its own as SVG, with its title: what `hpvi --picture` writes."""
+    from . import plot
+    size = np.ptp(np.concatenate([cell["outline"] for cell in data.get("cells") or [{"outline": [[0, 0], [1, 1]]}]]), axis=0)
+    pyplot = plot.drawing_library()
+    with pyplot.rc_context(plot.STYLE):
+        figure, axes = plot.figure(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8)))
+        try:
+            remarks = scene(data, axes)
+            axes.set_title(data["title"], parse_math=False)
+            if data["history"]:
+                figure.text(0.5, 0, remarks[0], ha="center", va="top", fontsize=9)
+            file = io.StringIO()
+            figure.savefig(file, format="svg", bbox_inches="tight", pad_inches=0.08, metadata={"Date": None, "Creator": None})
+        finally:
+            pyplot.close(figure)
+    text = file.getvalue()
+    return "<!-- the scene, drawn by hpvi -->\n" + text[text.index("<svg"):]
