@@ -131,6 +131,35 @@ const FullMatrix<double> &BoxStiffness<dim>::operator()(const Cell &cell) const
 }
 
 template <int dim>
+std::vector<double> BoxStiffness<dim>::diagonal(const Cell &cell) const
+{
+  std::vector<double> result(space.tables.fe.dofs_per_cell);
+  const bool is_box = !space.scene.geometry.has_mesh();
+  const CellMap<dim> map = map_of<dim>(cell);
+  if (const Matrix *const K = is_box ? &of_box(cell, none) : known(map, cell->material_id()))
+  {
+    for (unsigned int i = 0; i < result.size(); ++i)
+      result[i] = (*K)(i, i);
+    return result;
+  }
+  const CellGradients<dim> of_cell(space.tables.cell, map);
+  const HookesLaw<dim> law = this->law(cell);
+  for (unsigned int i = 0; i < space.tables.n_shapes; ++i)
+  {
+    Tensor<2, dim> products;
+    for (unsigned int q = 0; q < of_cell.volumes.size(); ++q)
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int b = 0; b < dim; ++b)
+          products[a][b] +=
+              of_cell.volumes[q] * of_cell.gradients[a](q, i) * of_cell.gradients[b](q, i);
+    for (unsigned int c = 0; c < dim; ++c)
+      result[space.tables.numbers[i][c]] = law.stiffness(
+          [&](const unsigned int a, const unsigned int b) { return products[a][b]; }, c, c);
+  }
+  return result;
+}
+
+template <int dim>
 void BoxStiffness<dim>::multiply(const Cell &cell, Vector<double> &result,
                                  const Vector<double> &u) const
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/space/cell_basis.h>
 #include <hpvi/space/coarse_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -23,13 +24,33 @@ Entries own_entries(const PrimalSpace<3> &space)
 {
   DynamicSparsityPattern dynamic(space.dof_handler.n_dofs());
   DoFTools::make_sparsity_pattern(space.dof_handler, dynamic, space.constraints, false);
+  std::vector<CellBasis> with_opposite; // cell by cell
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && has_opposite(space, cell))
+    {
+      with_opposite.push_back(cell_basis(space, cell));
+      for (const auto row : with_opposite.back().unknowns)
+        for (const auto column : with_opposite.back().unknowns)
+          dynamic.add(row, column);
+    }
+  auto next = with_opposite.begin();
   SparsityPattern pattern;
   pattern.copy_from(dynamic);
   SparseMatrix<double> matrix(pattern);
   const BoxStiffness<3> stiffness(space);
   std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
   for (const auto &cell : space.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+    if (cell->is_locally_owned() && has_opposite(space, cell))
+    {
+      const FullMatrix<double> &K = stiffness.nodal(cell);
+      matrix.add(next->unknowns, next->transformed(K));
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (space.constraints.is_constrained(dofs[i]))
+          matrix.add(dofs[i], dofs[i], K(i, i));
+      ++next;
+    }
+    else if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
       space.constraints.distribute_local_to_global(stiffness(cell), dofs, matrix);

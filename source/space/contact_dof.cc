@@ -11,7 +11,9 @@ template <int dim>
 ContactVector<dim> ContactDof<dim>::projected(const ContactVector<dim> &z) const
 {
   ContactVector<dim> result;
-  if (is_friction())
+  if (kind == Kind::glue)
+    result = z;
+  else if (is_friction())
     result = z / std::max(1., z.norm());
   else
     result[0] = kind == Kind::pressure ? std::max(0., z[0]) : z[0];
@@ -21,7 +23,15 @@ ContactVector<dim> ContactDof<dim>::projected(const ContactVector<dim> &z) const
 template <int dim>
 bool ContactDof<dim>::holds(const ContactVector<dim> &z) const
 {
-  return is_friction() ? z.norm() <= 1 : kind == Kind::reaction || z[0] > 0;
+  switch (kind)
+  {
+  case Kind::friction:
+    return z.norm() <= 1;
+  case Kind::pressure:
+    return z[0] > 0;
+  default:
+    return true;
+  }
 }
 
 template <int dim>

@@ -23,6 +23,8 @@ void ContactDofTransform<Number>::resolve(const PrimalSpace<3> &space, const Vec
 template <typename Number>
 ContactDofTransform<Number>::ContactDofTransform(const PrimalSpace<3> &space, const Vector &pattern)
 {
+  if (space.opposite)
+    values = &space.opposite->unknowns();
   if (space.faces.empty())
     return;
   n = space.tables.n_contact_dofs();
@@ -84,6 +86,33 @@ void ContactDofTransform<Number>::add(const PrimalSpace<3> &space, const Vector 
       rim.push_back(local);
       to_inner.insert(to_inner.end(), column.begin(), column.end());
     }
+    if (values)
+      add_opposite(space, &face - space.faces.data(), axis, contact_dofs.M_inverse);
+  }
+}
+
+/** To the last row, which is one of the face of this number. */
+template <typename Number>
+void ContactDofTransform<Number>::add_opposite(const PrimalSpace<3> &space, const unsigned int face,
+                                               const unsigned int axis,
+                                               const FullMatrix<double> &M_inverse)
+{
+  std::map<unsigned int, std::vector<double>> columns;
+  for (const OppositeFaces::Row &opposite : (*space.opposite)[face].rows)
+    for (const auto &[unknown, weight] : space.opposite->nodes[opposite.node].entries[axis])
+    {
+      std::vector<double> &column = columns[values->place(unknown)];
+      column.resize(n);
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int j = 0; j < n; ++j)
+          column[k] += weight * M_inverse(k, j) * opposite.moments[j];
+    }
+  rows.back().first_far = far.size();
+  rows.back().n_far = columns.size();
+  for (const auto &[place, column] : columns)
+  {
+    far.push_back(place);
+    far_to_inner.insert(far_to_inner.end(), column.begin(), column.end());
   }
 }
 
@@ -105,11 +134,13 @@ void ContactDofTransform<Number>::turn(Vector &v, const bool to_axes) const
     }
 }
 
-// With `C = -M^-1 W` over the rim T is `u_inner = M^-1 m + C u_rim`, its inverse `m = M (u_inner - C u_rim)`.
+// With `C = -M^-1 W` over the rim, and M^-1 R over what is opposite, T is `u_inner = M^-1 m + C u_rim`, its inverse `m = M (u_inner - C u_rim)`.
 template <typename Number>
 template <bool inverse>
 void ContactDofTransform<Number>::transform(Vector &v) const
 {
+  if (values)
+    values->take(v.begin(), exchanged);
   if (!inverse)
     turn(v, true);
   std::vector<Number> old(n), rest(n);
@@ -126,6 +157,13 @@ void ContactDofTransform<Number>::transform(Vector &v) const
     for (unsigned int j = 0; j < row.n_rim; ++j, column += n)
     {
       const Number value = v.local_element(rim[row.first_rim + j]);
+      for (unsigned int k = 0; k < n; ++k)
+        rest[k] += column[k] * value;
+    }
+    column = far_to_inner.data() + std::size_t(row.first_far) * n;
+    for (unsigned int j = 0; j < row.n_far; ++j, column += n)
+    {
+      const Number value = exchanged[far[row.first_far + j]];
       for (unsigned int k = 0; k < n; ++k)
         rest[k] += column[k] * value;
     }
@@ -147,6 +185,8 @@ void ContactDofTransform<Number>::transform_transposed(Vector &r) const
 {
   if (inverse)
     turn(r, true);
+  if (values)
+    exchanged.assign(values->size(), 0);
   std::vector<Number> old(n), on_rim(n);
   for (const Row &row : rows)
   {
@@ -170,9 +210,19 @@ void ContactDofTransform<Number>::transform_transposed(Vector &r) const
         sum += column[k] * on_rim[k];
       r.local_element(rim[row.first_rim + j]) += sum;
     }
+    column = far_to_inner.data() + std::size_t(row.first_far) * n;
+    for (unsigned int j = 0; j < row.n_far; ++j, column += n)
+    {
+      Number sum = 0;
+      for (unsigned int k = 0; k < n; ++k)
+        sum += column[k] * on_rim[k];
+      exchanged[far[row.first_far + j]] += sum;
+    }
   }
   if (!inverse)
     turn(r, false);
+  if (values)
+    values->add(exchanged, r.begin());
 }
 
 template <typename Number>

@@ -3,6 +3,8 @@
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
+#include <cmath>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -13,15 +15,18 @@ namespace
 constexpr unsigned int smoothing_degree = 6;
 constexpr double smoothing_range =
     40; ///< eigenvalues above the largest over this are the smoother's
-constexpr types::global_dof_index largest_coarse_mesh = 20000; ///< unknowns
+/** Unknowns of the coarsest mesh; with twice as many a factorisation in each Newton step takes longer than all the rest. */
+constexpr types::global_dof_index most_factorised = 1500;
+/** Likewise where bodies touch, which VertexSolver does not know; beyond it the matrix is assembled. */
+constexpr double most_factorised_of_bodies = 12000;
 } // namespace
 
 bool Multigrid::is_for(const PrimalSpace<3> &space)
 {
-  const double per_cell = 3 * std::pow(space.tables.degree, 3);
-  const auto &mesh = space.dof_handler.get_triangulation();
+  const double unknowns = 3 * std::pow(space.tables.degree, 3) *
+                          space.dof_handler.get_triangulation().n_global_coarse_cells();
   return has_cell_operator(space.tables.degree) &&
-         mesh.n_global_coarse_cells() * per_cell < largest_coarse_mesh;
+         (!space.opposite || unknowns <= most_factorised_of_bodies);
 }
 
 Multigrid::Multigrid(const PrimalSpace<3> &space) : finest(space)
@@ -43,12 +48,15 @@ Multigrid::Multigrid(const PrimalSpace<3> &space) : finest(space)
     if (l > 0)
       level.from_below = std::make_unique<LevelTransfer>(*levels[l - 1].matrix, *level.matrix);
   }
-  coarse = std::make_unique<CoarseSolver>(*levels.front().matrix);
+  if (space.opposite || levels.front().matrix->space.dof_handler.n_dofs() <= most_factorised)
+    factors = std::make_unique<CoarseSolver>(*levels.front().matrix);
+  else
+    vertices = std::make_unique<VertexSolver>(*levels.front().matrix);
   finest.reinit(from);
   finest.reinit(to);
 }
 
-/** The largest eigenvalue is estimated once: it changes little with the states of the contact. */
+/** The largest eigenvalue is that without what is held and H, of which both make it smaller. */
 void Multigrid::prepare(Level &level)
 {
   Smoother::AdditionalData settings;
@@ -67,12 +75,12 @@ void Multigrid::linearise(const std::vector<ContactDofState<3>> &states)
   finest.linearise(states);
   for (unsigned int l = levels.size(); l-- > 0;)
   {
+    if ((l > 0 || vertices) && !levels[l].smoother)
+      prepare(levels[l]);
     levels[l].matrix->linearise(l + 1 == levels.size() ? states
                                                        : levels[l + 1].from_below->coarse_states());
-    if (l > 0 && !levels[l].smoother)
-      prepare(levels[l]);
   }
-  coarse->factor();
+  factors ? factors->factor() : vertices->linearise();
 }
 
 void Multigrid::multiply(DistributedVector &y, const DistributedVector &x) const
@@ -101,19 +109,24 @@ void Multigrid::precondition(DistributedVector &z, const DistributedVector &r) c
 void Multigrid::cycle(const unsigned int l) const
 {
   const Level &level = levels[l];
-  if (l == 0)
+  if (l == 0 && factors)
   {
-    coarse->solve(level.x, level.b);
+    factors->solve(level.x, level.b);
     return;
   }
-  const Level &below = levels[l - 1];
   level.smoother->vmult(level.x, level.b);
   level.matrix->vmult(level.r, level.x);
   level.r.sadd(-1., 1., level.b);
-  level.from_below->restrict_to(below.b, level.r);
-  cycle(l - 1);
-  level.from_below->prolongate(level.r, below.x);
-  level.x += level.r;
+  if (l == 0)
+    vertices->correct(level.x, level.r);
+  else
+  {
+    const Level &below = levels[l - 1];
+    level.from_below->restrict_to(below.b, level.r);
+    cycle(l - 1);
+    level.from_below->prolongate(level.r, below.x);
+    level.x += level.r;
+  }
   level.smoother->step(level.x, level.b);
 }
 } // namespace hpvi

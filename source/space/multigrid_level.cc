@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/space/cell_basis.h>
 #include <hpvi/space/multigrid_level.h>
 
 #include <algorithm>
@@ -49,46 +50,82 @@ void MultigridLevel<Number>::reinit(Vector &v) const
   cells->reinit(v);
 }
 
-// Of a cell with constrained nodes an unknown J has `sum_ij w_iJ K_ij w_jJ`, over all nodes that depend on it.
+// Of a cell with hanging nodes an unknown J has `sum_ij w_iJ K_ij w_jJ`, over all nodes that depend on it; else K_JJ, if it
+// is not prescribed.
 template <typename Number>
 void MultigridLevel<Number>::find_diagonal()
 {
   const BoxStiffness<3> stiffness(space);
   reinit(inverse_diagonal);
   std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  const auto resolve = [&](const unsigned int i, const auto &take)
+  { ContactDofTransform<Number>::resolve(space, inverse_diagonal, dofs[i], take); };
+  const auto hangs = [this](const auto dof)
+  {
+    const auto *const line = space.constraints.get_constraint_entries(dof);
+    return line && !line->empty();
+  };
+  std::vector<Number> far(space.opposite ? space.opposite->unknowns().size() : 0);
   for (const auto &cell : space.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+  {
+    if (!cell->is_locally_owned())
+      continue;
+    if (has_opposite(space, cell))
     {
-      cell->get_dof_indices(dofs);
-      const FullMatrix<double> &K = stiffness(cell);
-      std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> shares;
-      const bool is_free =
-          std::none_of(dofs.begin(), dofs.end(),
-                       [this](const auto dof) { return space.constraints.is_constrained(dof); });
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        ContactDofTransform<Number>::resolve(space, inverse_diagonal, dofs[i],
-                                             [&](const unsigned int local, const double weight)
-                                             {
-                                               if (is_free)
-                                                 inverse_diagonal.local_element(local) += K(i, i);
-                                               else
-                                                 shares[local].emplace_back(i, weight);
-                                             });
-      for (const auto &[local, nodes] : shares)
-      {
-        double sum = 0;
-        for (const auto &[i, w_i] : nodes)
-          for (const auto &[j, w_j] : nodes)
-            sum += w_i * K(i, j) * w_j;
-        inverse_diagonal.local_element(local) += sum;
-      }
+      add_diagonal(cell, stiffness.nodal(cell), far);
+      continue;
     }
+    cell->get_dof_indices(dofs);
+    if (std::none_of(dofs.begin(), dofs.end(), hangs))
+    {
+      std::vector<double> diagonal;
+      if (!any(space.moment_components(cell)))
+        diagonal = stiffness.diagonal(cell);
+      else
+        for (const FullMatrix<double> &K = stiffness(cell); diagonal.size() < dofs.size();)
+          diagonal.push_back(K(diagonal.size(), diagonal.size()));
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        resolve(i, [&](const unsigned int local, double)
+                { inverse_diagonal.local_element(local) += diagonal[i]; });
+      continue;
+    }
+    const FullMatrix<double> &K = stiffness(cell);
+    std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> shares;
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      resolve(i, [&](const unsigned int local, const double weight)
+              { shares[local].emplace_back(i, weight); });
+    for (const auto &[local, nodes] : shares)
+    {
+      double sum = 0;
+      for (const auto &[i, w_i] : nodes)
+        for (const auto &[j, w_j] : nodes)
+          sum += w_i * K(i, j) * w_j;
+      inverse_diagonal.local_element(local) += sum;
+    }
+  }
   inverse_diagonal.compress(VectorOperation::add);
+  if (space.opposite)
+    space.opposite->unknowns().add(far, inverse_diagonal.begin());
   for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
     inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
   for (const unsigned int i : constrained)
     inverse_diagonal.local_element(i) = 0;
   find_blocks(stiffness);
+}
+
+/** Of a cell of a slave with the nodes opposite; what is neither of this process nor beside it goes to @p far. */
+template <typename Number>
+void MultigridLevel<Number>::add_diagonal(const PrimalSpace<3>::Cell &cell,
+                                          const FullMatrix<double> &K, std::vector<Number> &far)
+{
+  const CellBasis basis = cell_basis(space, cell);
+  const std::vector<double> diagonal = basis.diagonal(K);
+  for (unsigned int j = 0; j < diagonal.size(); ++j)
+    if (const auto unknown = basis.unknowns[j];
+        partitioner().in_local_range(unknown) || partitioner().is_ghost_entry(unknown))
+      inverse_diagonal.local_element(partitioner().global_to_local(unknown)) += diagonal[j];
+    else
+      far[space.opposite->unknowns().place(unknown)] += diagonal[j];
 }
 
 /** Contact dofs belong to one cell. */

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/space/algebraic_multigrid.h>
 #include <hpvi/space/newton_matrix.h>
 #include <hpvi/space/rigid_motions.h>
 
 #include <deal.II/base/timer.h>
-
-#include <Teuchos_ParameterList.hpp>
-#include <ml_MultiLevelPreconditioner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,28 +17,6 @@ namespace
 {
 constexpr double held_factor = 1e4;
 constexpr unsigned int amg_steps = 300, multigrid_steps = 100;
-
-/** Smoothed aggregation, Chebyshev smoothers of degree two, a direct solver where few unknowns are left. */
-template <int dim>
-Teuchos::ParameterList multigrid_parameters(std::vector<double> &motions)
-{
-  Teuchos::ParameterList parameters;
-  ML_Epetra::SetDefaults("SA", parameters);
-  parameters.set("ML output", 0);
-  parameters.set("PDE equations", dim);
-  parameters.set("null space: type", "pre-computed");
-  parameters.set("null space: dimension", static_cast<int>(n_motions<dim>));
-  parameters.set("null space: vectors", motions.data());
-  parameters.set("aggregation: type", "Uncoupled");
-  parameters.set("aggregation: threshold", 0.);
-  parameters.set("coarse: type", "Amesos-KLU");
-  parameters.set("coarse: max size", 2000);
-  parameters.set("smoother: type", "Chebyshev");
-  parameters.set("smoother: Chebyshev alpha", 10.);
-  parameters.set("smoother: sweeps", 2);
-  return parameters;
-}
-
 } // namespace
 
 template <int dim>
@@ -96,7 +72,7 @@ void NewtonMatrix<dim>::assemble()
   for (unsigned int k = 0; k < blocks.size(); ++k)
     for (unsigned int s = 0; s < dim - 1; ++s)
       for (unsigned int t = 0; t <= s; ++t)
-        if (const auto &contact_dof = space.contact[k]; contact_dof.is_friction() || s == t)
+        if (const auto &contact_dof = space.contact[k]; contact_dof.is_tangential() || s == t)
           blocks[k][s][t] = A->el(space.owned.nth_index_in_set(contact_dof.unknowns[s]),
                                   space.owned.nth_index_in_set(contact_dof.unknowns[t]));
   motions = hpvi::rigid_motions(space);
@@ -179,7 +155,7 @@ void NewtonMatrix<dim>::set_up()
     set_block(k, blocks[k] + inserted[k]);
   }
   A->compress(VectorOperation::insert);
-  Teuchos::ParameterList parameters = multigrid_parameters<dim>(free_motions);
+  Teuchos::ParameterList parameters = algebraic_multigrid<dim>(free_motions);
   amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
   amg->initialize(*A, parameters);
   known = states;

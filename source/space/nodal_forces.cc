@@ -4,6 +4,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/load_quadrature.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/space/support_constraints.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -48,6 +49,11 @@ public:
 private:
   void find_nodes();
   void find_contact_forces(const std::vector<ContactVector<dim>> &lambda);
+  void add_forces_opposite(const std::vector<ContactVector<dim>> &lambda, DistributedVector &sum);
+  unsigned int body_of_boundary(const types::boundary_id boundary) const
+  {
+    return space.scene.geometry.body_of_side(space.scene.boundaries[boundary].side);
+  }
   void carry_to_masters();
 
   const PrimalSpace<dim> &space;
@@ -55,7 +61,7 @@ private:
   struct Node
   {
     Point<dim> x;
-    unsigned int component = 0;
+    unsigned int component = 0, body = 0;
     std::set<types::boundary_id> holds; ///< whose conditions hold it
   };
   std::vector<Node> nodes; ///< of the unknowns of this process
@@ -78,7 +84,7 @@ NodalReactions<dim>::NodalReactions(const PrimalSpace<dim> &space, const PrimalS
   find_nodes();
 }
 
-/** `-sum_k G_k lambda_k m_k(phi_i)`: on inner and rim nodes of contact faces what no support exerts. */
+/** `-sum_k G_k lambda_k m_k(phi_i)`: on inner and rim nodes of contact faces, and on nodes opposite, what no support exerts. */
 template <int dim>
 void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<dim>> &lambda)
 {
@@ -89,6 +95,7 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
   {
     face.cell->get_dof_indices(dofs);
     const CellMap<dim> map = map_of<dim>(face.cell);
+    const types::boundary_id boundary = face.cell->face(face.face)->boundary_id();
     const auto add = [&](const FullMatrix<double> &moments, const std::vector<unsigned int> &shapes)
     {
       for (unsigned int j = 0; j < shapes.size(); ++j)
@@ -99,15 +106,48 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
         for (const unsigned int axis : face.components())
           sum(dofs[tables.numbers[shapes[j]][axis]]) += force[axis];
         const unsigned int node = tables.numbers[shapes[j]][0];
-        contact_forces.push_back({face.cell->face(face.face)->boundary_id(), force,
-                                  map.point(tables.fe.unit_support_point(node))});
+        contact_forces.push_back({boundary, force, map.point(tables.fe.unit_support_point(node)),
+                                  body_of_boundary(boundary)});
       }
     };
     add(space.contact_dofs_on(face).M, tables.inner[face.face]);
     add(space.contact_dofs_on(face).W, tables.rim[face.face]);
   }
   sum.compress(VectorOperation::add);
+  if (space.opposite)
+    add_forces_opposite(lambda, sum);
   reactions -= sum;
+}
+
+/** `G_k lambda_k R_kd` on the masters. */
+template <int dim>
+void NodalReactions<dim>::add_forces_opposite(const std::vector<ContactVector<dim>> &lambda,
+                                              DistributedVector &sum)
+{
+  const OppositeFaces &opposite = *space.opposite;
+  std::vector<double> far(opposite.nodal().size());
+  if constexpr (dim == 3)
+    for (unsigned int number = 0; number < space.faces.size(); ++number)
+    {
+      const ContactDofFace<dim> &face = space.faces[number];
+      const auto &pair = space.condition(face.cell, face.face).pair;
+      if (!pair)
+        continue;
+      const auto &parts = space.scene.pairs[*pair].parts;
+      const types::boundary_id master =
+          parts[parts[0] == face.cell->face(face.face)->boundary_id() ? 1 : 0];
+      for (const OppositeFaces::Row &row : opposite[number].rows)
+      {
+        Tensor<1, dim> force;
+        for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+          force += row.moments[k] * force_at(space, face, k, lambda);
+        for (const unsigned int axis : face.components())
+          far[opposite.nodal_place(row.node, axis)] += force[axis];
+        contact_forces.push_back(
+            {master, force, opposite.nodes[row.node].x, body_of_boundary(master)});
+      }
+    }
+  opposite.nodal().add(far, sum.begin());
 }
 
 /** What acts on a hanging node acts on those that it depends on. */
@@ -141,12 +181,14 @@ void NodalReactions<dim>::find_nodes()
       continue;
     cell->get_dof_indices(dofs);
     const CellMap<dim> map = map_of<dim>(cell);
+    const unsigned int body = body_of<dim>(space.scene.geometry, cell);
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {
       if (!space.owned.is_element(dofs[i]))
         continue;
       Node &node = nodes[space.owned.index_within_set(dofs[i])];
       node.x = map.point(fe.unit_support_point(i));
+      node.body = body;
       node.component = fe.system_to_component_index(i).first;
       for (const unsigned int face : cell->face_indices())
         if (cell->at_boundary(face) && fe.has_support_on_face(i, face))
@@ -198,12 +240,12 @@ NodalForces<dim> NodalReactions<dim>::forces() const
   {
     const Node &node = nodes[i];
     if (const double load = loads.local_element(i); load != 0)
-      result.loads.push_back({node.component, load, node.x});
+      result.loads.push_back({node.component, load, node.x, node.body});
     Tensor<1, dim> force;
     force[node.component] =
         reactions.local_element(i) / std::max<std::size_t>(1, node.holds.size());
     for (const types::boundary_id boundary : node.holds)
-      result.reactions.push_back({boundary, force, node.x});
+      result.reactions.push_back({boundary, force, node.x, node.body});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
   collectively(space.communicator(), [&]() { result.tractions = tractions(space); });

@@ -60,7 +60,7 @@ std::vector<double> growth_of_gaps(const PastState<dim> *const last, const Prima
                               space.tables)
                  .contact;
   for (unsigned int k = 0; k < result.size(); ++k)
-    if (!space.contact[k].is_friction())
+    if (!space.contact[k].is_tangential())
       result[k] =
           last ? space.contact[k].gap[0] - before[k].gap[0] : std::min(space.contact[k].gap[0], 0.);
   return result;

@@ -2,9 +2,14 @@
 #include <hpvi/plane/friction_rule.h>
 #include <hpvi/space/primal_field.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -31,7 +36,8 @@ contact_faces(const PrimalSpace<dim> &space)
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
       for (const unsigned int face : cell->face_indices())
-        if (cell->at_boundary(face) && space.condition(cell, face).has_contact())
+        if (cell->at_boundary(face) && space.condition(cell, face).has_contact() &&
+            !space.is_master(space.condition(cell, face).id))
         {
           // t = (-n_y, n_x): up on the right, to the left on the top
           const double sign = (face == 0 || face == 3) ? -1. : 1.;
@@ -72,6 +78,119 @@ PrimalField<dim>::PrimalField(const Scene<dim> &scene, const PrimalSpace<dim> &s
   }
   for (const BoxTable<dim> &table : space.tables.moment_points)
     moment_tables.push_back(tabulate<dim>(space.tables.degree, table.points, table.weights, false));
+  if (!space.opposite)
+    return;
+  far = space.values_opposite(*this->u);
+  if (space.past)
+    past_far = space.values_opposite(*space.past);
+  find_exerted();
+}
+
+namespace
+{
+/** What a process that has a slave tells one that has its master. */
+struct FarTraction
+{
+  unsigned int cell = 0, face = 0;
+  Tensor<1, 3> normal;
+  std::vector<Point<3>> references;
+  std::vector<double> weights;
+  std::vector<Tensor<1, 3>> tractions;
+
+  template <class Archive>
+  void serialize(Archive &archive, unsigned int)
+  {
+    archive &cell &face &normal &references &weights &tractions;
+  }
+};
+} // namespace
+
+/** Points at which residuals of the master are seen, at as many as of the slave. */
+template <int dim>
+void PrimalField<dim>::find_exerted()
+{
+  if constexpr (dim == 3)
+  {
+    const OppositeFaces &opposite = *space.opposite;
+    std::map<unsigned int, std::vector<FarTraction>> messages;
+    for (const FieldFace<dim> &face : this->faces())
+      if (face.condition->pair && contact_dof_faces[face.number])
+      {
+        const ContactAxes<3> &axes = contact_dof_faces[face.number]->axes;
+        const Tensor<2, 3> to_cell = invert(face.map.jacobian(Point<3>(0.5, 0.5, 0.5)));
+        for (const OppositeFaces::Part &part : opposite[number_of(face)].parts)
+        {
+          const MasterFace &master = opposite.masters[part.master];
+          FarTraction message{master.cell, master.face, axes.normal, {}, {}, {}};
+          for (const auto &point : opposite.points_of(part, axes, space.tables.degree + 1))
+          {
+            const Point<3> own = face.map.is_affine()
+                                     ? Point<3>(to_cell * (point.x - face.map.vertices()[0]))
+                                     : reference_of<3>(face.cell, point.x).value();
+            const ContactTraction<3> traction = this->traction(face, own);
+            const FaceFrame<3> frame = face.frame(own);
+            Tensor<1, 3> force = traction.pressure * frame.normal;
+            for (unsigned int s = 0; s < 2; ++s)
+              force += traction.friction[s] * frame.tangents[s];
+            message.references.push_back(point.reference);
+            message.weights.push_back(point.weight);
+            message.tractions.push_back(force);
+          }
+          messages[master.process].push_back(message);
+        }
+      }
+    std::vector<Cell> cells; // by active_cell_index()
+    for (const Cell &cell : this->dof_handler.active_cell_iterators())
+      cells.push_back(cell);
+    for (const auto &[process, received] :
+         Utilities::MPI::some_to_some(space.communicator(), messages))
+      for (const FarTraction &one : received)
+        on_masters.push_back(
+            {cells[one.cell], one.face, one.normal, one.references, one.weights, one.tractions});
+  }
+}
+
+template <int dim>
+unsigned int PrimalField<dim>::number_of(const FieldFace<dim> &face) const
+{
+  return contact_dof_faces[face.number] - space.faces.data();
+}
+
+template <int dim>
+Tensor<1, dim> PrimalField<dim>::displacement_opposite(const FieldFace<dim> &face,
+                                                       const Point<dim> &x,
+                                                       const std::vector<double> &values) const
+{
+  if constexpr (dim == 3)
+    if (face.condition->pair && contact_dof_faces[face.number])
+      return space.opposite->displacement(
+          space.opposite->place(number_of(face), x, contact_dof_faces[face.number]->axes.normal),
+          values);
+  return {};
+}
+
+template <int dim>
+Tensor<1, dim> PrimalField<dim>::opposite(const FieldFace<dim> &face,
+                                          const Point<dim> &reference) const
+{
+  return displacement_opposite(face, face.map.point(reference), far);
+}
+
+template <int dim>
+std::vector<types::material_id>
+PrimalField<dim>::materials_opposite(const FieldFace<dim> &face) const
+{
+  std::vector<types::material_id> result;
+  if (space.opposite && face.condition->pair && contact_dof_faces[face.number])
+    for (const OppositeFaces::Part &part : (*space.opposite)[number_of(face)].parts)
+      result.push_back(space.opposite->masters[part.master].material);
+  return result;
+}
+
+template <int dim>
+const std::vector<ExertedTraction<dim>> &PrimalField<dim>::exerted() const
+{
+  return on_masters;
 }
 
 template <int dim>
@@ -145,7 +264,7 @@ Tangential<dim> PrimalField<dim>::past_slip(const FieldFace<dim> &face, const Po
           : reference_of<dim>(face.cell, x);
   AssertThrow(found, ExcMessage("A point of a contact face lies outside of its cell."));
   const Point<dim> &reference = *found;
-  Tensor<1, dim> u;
+  Tensor<1, dim> u = -displacement_opposite(face, x, past_far);
   for (unsigned int i = 0; i < field.size(); ++i) // the first component of shape i has its value
     u += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];
   return face.frame(reference).tangential(u);
@@ -183,7 +302,9 @@ std::vector<MultiplierPoint<dim>> PrimalField<dim>::multiplier_points(const Fiel
     const ContactTraction<dim> traction = multiplier(face, k);
     result.push_back(
         {table.points[k], own && own->own ? own->own->areas[k] : table.weights[k] * area,
-         own && own->has_friction() ? space.contact[own->friction + k].bound_by(*lambda) : 0.,
+         own && own->has_friction() && !face.condition->is_tied()
+             ? space.contact[own->friction + k].bound_by(*lambda)
+             : 0.,
          traction, face.condition->is_unilateral() && traction.pressure <= negligible});
   }
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/tolerances.h>
+#include <hpvi/scene/slave_side.h>
 #include <hpvi/scene/space_motion.h>
 #include <hpvi/space/consistent_constraints.h>
 #include <hpvi/space/primal_space.h>
@@ -35,11 +36,15 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
     : scene(scene), tables(tables),
       rests_on_contact(agreed_rests_on_contact(scene, mesh.get_communicator())), dof_handler(mesh)
 {
+  if constexpr (dim == 3)
+    if (scene.has_pairs())
+      collectively(communicator(), [&]() { masters = masters_of(scene); });
   number();
   collectively(communicator(),
                [&]() { constrain_supports(scene, dof_handler, relevant, constraints); });
   make_consistent(constraints, owned, relevant, communicator());
   collectively(communicator(), [this]() { find_contact(); });
+  find_opposite_faces();
   types::global_dof_index constrained = 0;
   for (const auto i : owned)
     constrained += constraints.is_constrained(i);
@@ -47,7 +52,8 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
   types::global_dof_index own_discs = 0, own_pressures = 0;
   for (const ContactDofFace<dim> &face : faces)
   {
-    own_discs += condition(face.cell, face.face).friction ? tables.n_contact_dofs() : 0;
+    const BoundaryCondition<dim> &boundary = condition(face.cell, face.face);
+    own_discs += boundary.friction || boundary.is_tied() ? tables.n_contact_dofs() : 0;
     own_pressures += face.has_pressure() ? tables.n_contact_dofs() : 0;
   }
   n_discs = Utilities::MPI::sum(own_discs, communicator());
@@ -92,15 +98,18 @@ void PrimalSpace<dim>::find_contact()
         if (!cell->at_boundary(number))
           continue;
         const BoundaryCondition<dim> &boundary = condition(cell, number);
-        if (!boundary.has_pressure() && !has_tangential_contact_dofs(boundary))
+        if (!has_normal_contact_dofs(boundary) && !has_tangential_contact_dofs(boundary))
           continue;
         ContactDofFace<dim> face = face_of(cell, number);
         if (has_tangential_contact_dofs(boundary))
         {
           face.friction = contact.size();
-          add_contact_dofs(face, ContactDof<dim>::Kind::friction, dofs);
+          add_contact_dofs(face,
+                           boundary.is_tied() ? ContactDof<dim>::Kind::glue
+                                              : ContactDof<dim>::Kind::friction,
+                           dofs);
         }
-        if (boundary.has_pressure())
+        if (has_normal_contact_dofs(boundary))
         {
           face.pressure = contact.size();
           add_contact_dofs(face,
@@ -112,6 +121,16 @@ void PrimalSpace<dim>::find_contact()
         faces.push_back(face);
       }
     }
+}
+
+/** Where bodies touch each other. */
+template <int dim>
+void PrimalSpace<dim>::find_opposite_faces()
+{
+  if constexpr (dim == 3)
+    if (!masters.empty())
+      opposite = std::make_unique<const OppositeFaces>(scene, dof_handler, tables, constraints,
+                                                       faces, masters);
 }
 
 /** Faces of a mesh from a file have directions of their own, and measures. */
@@ -157,6 +176,8 @@ void PrimalSpace<dim>::add_contact_dofs(const ContactDofFace<dim> &face,
       contact_dof.centroid = Point<dim>(
           mean<Tensor<1, dim>>(face, k, [](const Point<dim> &x) -> Tensor<1, dim> { return x; }));
     contact_dof.area = face.own ? face.own->areas[k] : table.weights[k] * map.face_area(face.face);
+    for (unsigned int s = 0; contact_dof.is_tangential() && s < dim - 1; ++s)
+      contact_dof.unknowns[s] = unknown(face.tangential(s));
     if (contact_dof.is_friction())
     {
       const FrictionLaw<dim> &law = condition(face.cell, face.face).friction;
@@ -164,10 +185,8 @@ void PrimalSpace<dim>::add_contact_dofs(const ContactDofFace<dim> &face,
       contact_dof.bound = contact_dof.limit.limit(0.);
       if (law.knows_pressure()) // pressures follow all frictions of a face
         contact_dof.partner = contact.size() + tables.n_contact_dofs();
-      for (unsigned int s = 0; s < dim - 1; ++s)
-        contact_dof.unknowns[s] = unknown(face.tangential(s));
     }
-    else
+    else if (!contact_dof.is_tangential())
     {
       if (condition(face.cell, face.face).gap)
         contact_dof.gap[0] =
@@ -251,8 +270,10 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
   const unsigned int n = tables.n_contact_dofs();
   Vector<double> rest(n), inner(n);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const ContactDofFace<dim> &face : faces)
+  const std::vector<double> far = values_opposite(complete);
+  for (unsigned int number = 0; number < faces.size(); ++number)
   {
+    const ContactDofFace<dim> &face = faces[number];
     face.cell->get_dof_indices(dofs);
     const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
@@ -265,6 +286,7 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
           rest[k] += face.direction(own)[c] * u(dof(dofs, inner_shapes[k], own));
         for (unsigned int j = 0; j < rim_shapes.size(); ++j)
           rest[k] -= contact_dofs.W(k, j) * u(dof(dofs, rim_shapes[j], c));
+        rest[k] += moment_opposite(number, k, far)[c];
       }
       contact_dofs.M_inverse.vmult(inner, rest);
       for (unsigned int k = 0; k < n; ++k)
@@ -278,19 +300,42 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
 }
 
 template <int dim>
+std::vector<double> PrimalSpace<dim>::values_opposite(const DistributedVector &u) const
+{
+  std::vector<double> result;
+  if (opposite)
+    opposite->nodal().take(u.begin(), result);
+  return result;
+}
+
+template <int dim>
+Tensor<1, dim> PrimalSpace<dim>::moment_opposite(const unsigned int face, const unsigned int k,
+                                                 const std::vector<double> &far) const
+{
+  Tensor<1, dim> result;
+  if (opposite)
+    for (const OppositeFaces::Row &row : (*opposite)[face].rows)
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] += row.moments[k] * far[opposite->nodal_place(row.node, c)];
+  return result;
+}
+
+template <int dim>
 DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) const
 {
   DistributedVector v = owned_vector();
   v.copy_locally_owned_data_from(u);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  for (const ContactDofFace<dim> &face : faces)
+  const std::vector<double> far = values_opposite(u);
+  for (unsigned int number = 0; number < faces.size(); ++number)
   {
+    const ContactDofFace<dim> &face = faces[number];
     const CellField<dim> field = this->field(face.cell, u);
     const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     face.cell->get_dof_indices(dofs);
     for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
     {
-      Tensor<1, dim> m;
+      Tensor<1, dim> m = -moment_opposite(number, k, far);
       for (unsigned int j = 0; j < tables.n_contact_dofs(); ++j)
         m += contact_dofs.M(k, j) * field[tables.inner[face.face][j]];
       for (unsigned int j = 0; j < contact_dofs.W.n(); ++j)
@@ -377,7 +422,7 @@ PrimalSpace<dim>::moment_components(const typename Triangulation<dim>::cell_iter
     const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
     for (unsigned int c = 0; c < dim; ++c)
       result[dim * face + c] =
-          c == face / 2 ? boundary.has_pressure() : has_tangential_contact_dofs(boundary);
+          c == face / 2 ? has_normal_contact_dofs(boundary) : has_tangential_contact_dofs(boundary);
   }
   return result;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/space/cell_basis.h>
 #include <hpvi/space/primal_system.h>
 
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
@@ -49,16 +49,53 @@ template <int dim>
 PrimalSystem<dim>::PrimalSystem(const PrimalSpace<dim> &space)
     : f(space.ghosted_vector()), space(space), stiffness(space)
 {
-  collectively(space.communicator(), [this]() { assemble_loads(); });
+  std::vector<double> far; // what acts on nodes opposite
+  if (space.opposite)
+  {
+    far.resize(space.opposite->unknowns().size());
+    lifted = std::make_unique<DistributedVector>(space.displacement(space.owned_vector()));
+  }
+  collectively(space.communicator(), [&]() { assemble_loads(far); });
+  lifted.reset();
   f.compress(VectorOperation::add);
+  if (space.opposite)
+    space.opposite->unknowns().add(far, f.begin());
   DistributedVector owned_part = space.owned_vector();
   owned_part.copy_locally_owned_data_from(f);
   f.swap(owned_part);
 }
 
+/** Of a cell of a slave: what is left of its loads under u_0, which prescribed displacements alone make. */
+template <int dim>
+void PrimalSystem<dim>::assemble_with_opposite(const Cell &cell, std::vector<double> &far)
+{
+  if constexpr (dim == 3)
+  {
+    const unsigned int n = space.tables.fe.dofs_per_cell;
+    Vector<double> u(n), internal(n);
+    cell->get_dof_values(*lifted, u);
+    stiffness.multiply(cell, internal, u);
+    const CellField<dim> loads = load(cell);
+    for (unsigned int i = 0; i < loads.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        internal[space.tables.numbers[i][c]] -= loads[i][c];
+    const CellBasis basis = cell_basis(space, cell);
+    for (unsigned int j = 0; j < basis.unknowns.size(); ++j)
+    {
+      double sum = 0;
+      for (const auto &[i, weight] : basis.columns[j])
+        sum -= weight * internal[i];
+      if (const auto unknown = basis.unknowns[j]; space.relevant.is_element(unknown))
+        f(unknown) += sum;
+      else
+        far[space.opposite->unknowns().place(unknown)] += sum;
+    }
+  }
+}
+
 /** With what prescribed displacements do to the unknowns beside them. */
 template <int dim>
-void PrimalSystem<dim>::assemble_loads()
+void PrimalSystem<dim>::assemble_loads(std::vector<double> &far)
 {
   const FESystem<dim> &fe = space.tables.fe;
   std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
@@ -66,6 +103,11 @@ void PrimalSystem<dim>::assemble_loads()
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
+      if (is_slave_cell(cell))
+      {
+        assemble_with_opposite(cell, far);
+        continue;
+      }
       const CellField<dim> loads = load(cell);
       for (unsigned int i = 0; i < loads.size(); ++i)
         for (unsigned int c = 0; c < dim; ++c)
@@ -84,20 +126,71 @@ void PrimalSystem<dim>::assemble_loads()
 }
 
 template <int dim>
+bool PrimalSystem<dim>::is_slave_cell(const Cell &cell) const
+{
+  if constexpr (dim == 3)
+    return has_opposite(space, cell);
+  else
+    return false;
+}
+
+/** Where bodies touch with rows of what is opposite, and the entries of cells of slaves; @p rows are those that it has. */
+template <int dim>
+DynamicSparsityPattern PrimalSystem<dim>::sparsity(IndexSet &rows) const
+{
+  rows = space.relevant;
+  if (space.opposite)
+    for (const OppositeNode &node : space.opposite->nodes)
+      for (const auto &component : node.entries)
+        for (const auto &entry : component)
+          rows.add_index(entry.first);
+  rows.compress();
+  DynamicSparsityPattern pattern(rows);
+  DoFTools::make_sparsity_pattern(space.dof_handler, pattern, space.constraints, false);
+  if constexpr (dim == 3)
+    for (const Cell &cell : space.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && has_opposite(space, cell))
+      {
+        const std::vector<types::global_dof_index> unknowns = cell_basis(space, cell).unknowns;
+        for (const auto row : unknowns)
+          pattern.add_entries(row, unknowns.begin(), unknowns.end(), /*indices_are_sorted=*/true);
+      }
+  return pattern;
+}
+
+/** The entries of a cell of a slave, and of what it has prescribed those on the diagonal. */
+template <int dim>
+void PrimalSystem<dim>::add_with_opposite(const Cell &cell)
+{
+  if constexpr (dim == 3)
+  {
+    const FullMatrix<double> &K = stiffness.nodal(cell);
+    const CellBasis basis = cell_basis(space, cell);
+    A.add(basis.unknowns, basis.transformed(K));
+    std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      if (space.constraints.is_constrained(dofs[i]))
+        A.add(dofs[i], dofs[i], K(i, i));
+  }
+}
+
+template <int dim>
 TrilinosWrappers::SparseMatrix &PrimalSystem<dim>::matrix()
 {
   if (A.m() > 0)
     return A;
   {
-    DynamicSparsityPattern pattern(space.relevant);
-    DoFTools::make_sparsity_pattern(space.dof_handler, pattern, space.constraints, false);
-    SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator(),
-                                               space.relevant);
+    IndexSet rows;
+    DynamicSparsityPattern pattern = sparsity(rows);
+    SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator(), rows);
     A.reinit(space.owned, space.owned, pattern, space.communicator());
   }
   std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
+    if (cell->is_locally_owned() && is_slave_cell(cell))
+      add_with_opposite(cell);
+    else if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
       space.constraints.distribute_local_to_global(stiffness(cell), dofs, A);

@@ -5,9 +5,6 @@ namespace hpvi
 {
 using namespace dealii;
 
-namespace
-{
-/** The value at @p x of a translation or, about @p centre, a rotation. */
 template <int dim>
 Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm)
 {
@@ -22,7 +19,6 @@ Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm
   }
   return result;
 }
-} // namespace
 
 template <int dim>
 std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
@@ -44,12 +40,14 @@ std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
           const Tensor<1, dim> arm = map.point(fe.unit_support_point(i)) - centre;
           for (unsigned int m = 0; m < n_motions<dim>; ++m)
             result[m * n + space.owned.index_within_set(dofs[i])] =
-                rigid_motion(m, arm / length)[fe.system_to_component_index(i).first];
+                rigid_motion<dim>(m, arm / length)[fe.system_to_component_index(i).first];
         }
     }
   for (const ContactDofFace<dim> &face : space.faces)
   {
     face.cell->get_dof_indices(dofs);
+    const bool is_jump =
+        space.condition(face.cell, face.face).pair.has_value(); // all bodies move alike
     for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
     {
       const Tensor<1, dim> arm = space.contact[face.first() + k].centroid - centre;
@@ -57,12 +55,14 @@ std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
         for (unsigned int m = 0; m < n_motions<dim>; ++m)
           result[m * n + space.owned.index_within_set(
                              dofs[space.tables.numbers[space.tables.inner[face.face][k]][c]])] =
-              rigid_motion(m, arm / length) * face.direction(c);
+              is_jump ? 0. : rigid_motion<dim>(m, arm / length) * face.direction(c);
     }
   }
   return result;
 }
 
+template Tensor<1, 2> rigid_motion(unsigned int, const Tensor<1, 2> &);
+template Tensor<1, 3> rigid_motion(unsigned int, const Tensor<1, 3> &);
 template std::vector<double> rigid_motions(const PrimalSpace<2> &);
 template std::vector<double> rigid_motions(const PrimalSpace<3> &);
 } // namespace hpvi

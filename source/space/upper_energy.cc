@@ -62,7 +62,7 @@ double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Scene<dim> &scene = space.scene;
-  if (scene.has_unilateral_contact() || scene.has_coulomb_friction() ||
+  if (scene.has_unilateral_contact() || scene.has_pairs() || scene.has_coulomb_friction() ||
       missed_displacement(space, u) > 1e-9 * u.linfty_norm())
     return none;
   const double finer = load_work(scene, space, u, 2 * (space.tables.degree + 1)),

@@ -40,6 +40,7 @@ TEST(Newton, SaysHowMuchMemoryItIsAboutToTake)
   {
     std::string note;
     const Scene<3> scene = slab({{"Geometry/Subdivisions", subdivisions},
+                                 {"Solver/Linear", "amg"},
                                  {"Adaptivity/Start degree", "4"},
                                  {"Adaptivity/Maximum unknowns", "200000"}});
     EXPECT_THROW(AdaptiveSolver<3>(scene, MPI_COMM_SELF)
@@ -89,6 +90,29 @@ TEST(Newton, StepsDoNotGrowWithTheDiscs)
   }
   EXPECT_LE(steps[1], steps[0] + 10);
   EXPECT_LE(steps[1], 50U);
+}
+
+/** In space not even then: all starts by Newton's method, and two sets of states in turns are left half way. */
+TEST(Newton, StartsManyContactDofsOfSpace)
+{
+  for (const Overrides &entries : {Overrides{{"Geometry/Subdivisions", "24, 1, 24"}},
+                                   Overrides{{"Geometry/Lower corner", "0, 0, 0"},
+                                             {"Geometry/Subdivisions", "12, 3, 12"},
+                                             {"Material/Young's modulus", "100"},
+                                             {"Boundary top/Displacement", "0.01; -0.01; 0"},
+                                             {"Boundary bottom/Gap", ""},
+                                             {"Boundary bottom/Friction bound", ""},
+                                             {"Boundary bottom/Friction coefficient", "0.3"}}})
+  {
+    const Overrides all{
+        entries, given::steps("hup2", "1"), {"Adaptivity/Maximum unknowns", "100000"}};
+    steps_of<3>(read_scene<3>("prm/dome.prm", all),
+                [](const StepReport<3> &step)
+                {
+                  EXPECT_EQ(step.primal->newton.augmented_steps, 0u);
+                  EXPECT_LE(step.primal->newton.steps, 20u);
+                });
+  }
 }
 
 /** Where no tolerance is named what Newton's method leaves is known, and small beside the indicator. */

@@ -68,6 +68,16 @@ TEST(Ranks, Slab)
   expect_same_run(slab({{"Adaptivity/Maximum steps", "3"}}));
 }
 
+/** A coarsest mesh that multigrid smooths, above ML: of Coulomb's law, too. */
+TEST(Ranks, CoarseMeshOfManyCells)
+{
+  expect_same_run(slab({{"Geometry/Subdivisions", "8, 8, 2"}, {"Adaptivity/Maximum steps", "2"}}));
+  expect_same_run(slab({{"Boundary bottom/Contact", "unilateral"},
+                        given::coulomb("0.6"),
+                        {"Geometry/Subdivisions", "6, 6, 2"},
+                        {"Adaptivity/Maximum steps", "1"}}));
+}
+
 TEST(Ranks, SlabOfDegreeThree)
 {
   expect_same_run(slab({given::steps("hap3", "2")}));

@@ -29,6 +29,9 @@ public:
   /** In the basis of contact dofs of a cell of this process; until the next call. */
   const Matrix &operator()(const Cell &cell) const;
 
+  /** The diagonal of K of nodal values, of which no cell takes a matrix that has none already. */
+  std::vector<double> diagonal(const Cell &cell) const;
+
   /** K u of nodal values. */
   void multiply(const Cell &cell, dealii::Vector<double> &result,
                 const dealii::Vector<double> &u) const;

@@ -29,9 +29,10 @@ using ContactVector = dealii::Tensor<1, dim - 1>;
  *     friction   G |m - u_0|             |lambda| <= 1, a disc     G = g(x_k) int psi_k
  *     pressure   m <= u_0, else infinity  lambda >= 0 [stress]      G = int psi_k
  *     reaction   m = u_0, else infinity   lambda of any sign        likewise
+ *     glue       m = 0, else infinity     any vector lambda         likewise, along the face
  *
  * The gap u_0 is a contact dof as well, of friction that of the load step before. Where the law of friction knows the pressure, `g(x_k)` is its limit for that of the
- * #partner, and a reaction is the pressure of bilateral contact.
+ * #partner, and a reaction is the pressure of bilateral contact. Where another body lies opposite, m is a moment of the jump.
  */
 template <int dim>
 struct ContactDof
@@ -40,7 +41,8 @@ struct ContactDof
   {
     friction,
     pressure,
-    reaction
+    reaction,
+    glue
   };
 
   Kind kind;
@@ -62,6 +64,11 @@ struct ContactDof
     return kind == Kind::friction;
   }
 
+  bool is_tangential() const
+  {
+    return kind == Kind::friction || kind == Kind::glue;
+  }
+
   bool has_partner() const
   {
     return partner != dealii::numbers::invalid_unsigned_int;
@@ -75,7 +82,7 @@ struct ContactDof
 
   unsigned int n_unknowns() const
   {
-    return is_friction() ? dim - 1 : 1;
+    return is_tangential() ? dim - 1 : 1;
   }
 
   /** The projection onto the set of multipliers. */

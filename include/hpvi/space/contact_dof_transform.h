@@ -13,7 +13,8 @@ namespace hpvi
 /**
  * Between contact dofs and the inner nodes of contact faces whose place they take (see BoxTables), in vectors of nodal values without
  * constrained ones: `u = T v` is `u_inner = M^-1 (m - W u_rim)`, all else alike; m of a face that is normal to no axis are first
- * turned from its directions. A contact face is one cell's, so that all of it works on local elements, those of neighbours included.
+ * turned from its directions. A contact face is one cell's, so that it works on local elements, those of neighbours included; where
+ * another body lies opposite `u_inner = M^-1 (m - W u_rim + R u_opposite)`, with values of FarValues.
  */
 template <typename Number>
 class ContactDofTransform
@@ -41,6 +42,7 @@ private:
   struct Row ///< one component of a face
   {
     unsigned int first_inner, first_rim, n_rim, matrix; ///< the last in #matrices
+    unsigned int first_far = 0, n_far = 0;
   };
   struct Turn ///< of a face whose three components begin there in #inner
   {
@@ -54,6 +56,8 @@ private:
 
   void add(const PrimalSpace<3> &space, const Vector &pattern, const ContactDofFace<3> &face,
            unsigned int matrix);
+  void add_opposite(const PrimalSpace<3> &space, unsigned int face, unsigned int axis,
+                    const dealii::FullMatrix<double> &M_inverse);
   void turn(Vector &v, bool to_axes) const;
   template <bool inverse>
   void transform(Vector &v) const;
@@ -66,6 +70,10 @@ private:
   std::vector<Turn> turns;
   std::vector<unsigned int> inner, rim; ///< local elements
   std::vector<Number> to_inner;         ///< -M^-1 W with constraints resolved, n for each of #rim
+  const FarValues *values = nullptr;    ///< opposite to faces; null: no bodies touch
+  std::vector<unsigned int> far;        ///< places there
+  std::vector<Number> far_to_inner;     ///< M^-1 R likewise, n for each of #far
+  mutable std::vector<Number> exchanged;
 };
 } // namespace hpvi
 

@@ -5,6 +5,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/space/coarse_solver.h>
 #include <hpvi/space/level_transfer.h>
+#include <hpvi/space/vertex_solver.h>
 
 #include <deal.II/lac/precondition.h>
 
@@ -13,13 +14,13 @@ namespace hpvi
 /**
  * Geometric multigrid for `A + H` in space by global coarsening: each mesh has all cells of the next one coarsened once,
  * contact dofs of the same degree on its contact faces, and the states of contact that LevelTransfer hands down. A V-cycle
- * smooths by Chebyshev polynomials of degree 6 in single precision. A new state of the contact takes no set-up but
- * the factorisation of the coarsest mesh.
+ * smooths by Chebyshev polynomials of degree 6 in single precision. The coarsest mesh is factorised, or where it
+ * has too many unknowns smoothed as well, above VertexSolver. A new state of the contact takes no set-up but that of these.
  */
 class Multigrid
 {
 public:
-  /** Does @p space offer what it takes: degrees 2 to 4, and a coarse mesh that a factorisation likes? */
+  /** Does @p space offer what it takes: degrees 2 to 4? */
   static bool is_for(const PrimalSpace<3> &space);
 
   /** @p space must outlive it. Collective. */
@@ -49,9 +50,10 @@ private:
   void prepare(Level &level);
   void cycle(unsigned int l) const;
 
-  std::vector<Level> levels; ///< from the coarsest on
-  std::unique_ptr<CoarseSolver> coarse;
-  mutable DistributedVector from, to; ///< of the finest, with neighbours
+  std::vector<Level> levels;              ///< from the coarsest on
+  std::unique_ptr<CoarseSolver> factors;  ///< of a coarsest mesh of few unknowns
+  std::unique_ptr<VertexSolver> vertices; ///< or, under the smoother of the coarsest mesh
+  mutable DistributedVector from, to;     ///< of the finest, with neighbours
 };
 } // namespace hpvi
 

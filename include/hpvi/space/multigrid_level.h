@@ -55,6 +55,8 @@ public:
 
 private:
   void find_diagonal();
+  void add_diagonal(const PrimalSpace<3>::Cell &cell, const dealii::FullMatrix<double> &K,
+                    std::vector<Number> &far);
   void find_blocks(const BoxStiffness<3> &stiffness);
 
   dealii::AffineConstraints<Number> constraints; ///< as of the space, in its own numbers

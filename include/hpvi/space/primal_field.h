@@ -28,6 +28,11 @@ public:
                                 const dealii::Point<dim> &reference) const override;
   double bound(const FieldFace<dim> &face, const dealii::Point<dim> &reference) const override;
   Tangential<dim> past_slip(const FieldFace<dim> &face, const dealii::Point<dim> &x) const override;
+  dealii::Tensor<1, dim> opposite(const FieldFace<dim> &face,
+                                  const dealii::Point<dim> &reference) const override;
+  std::vector<dealii::types::material_id>
+  materials_opposite(const FieldFace<dim> &face) const override;
+  const std::vector<ExertedTraction<dim>> &exerted() const override;
   std::vector<double> friction_cuts(const FieldFace<dim> &face) const override;
   std::vector<MultiplierPoint<dim>> multiplier_points(const FieldFace<dim> &face,
                                                       double negligible) const override;
@@ -41,6 +46,11 @@ private:
               const ShapeTables<dim> &tables, std::shared_ptr<const DistributedVector> u,
               std::shared_ptr<const std::vector<ContactVector<dim>>> lambda);
 
+  void find_exerted();
+  dealii::Tensor<1, dim> displacement_opposite(const FieldFace<dim> &face,
+                                               const dealii::Point<dim> &x,
+                                               const std::vector<double> &values) const;
+  unsigned int number_of(const FieldFace<dim> &face) const;
   ContactTraction<dim> multiplier(const FieldFace<dim> &face, unsigned int k) const;
 
   const PrimalSpace<dim> &space;
@@ -49,6 +59,8 @@ private:
   std::vector<const ContactDofFace<dim> *>
       contact_dof_faces;                      ///< by face; null: it has no contact dofs
   std::vector<ShapeTable<dim>> moment_tables; ///< by number of a face of the unit cell
+  std::vector<double> far, past_far; ///< opposite to faces, now and in the load step before
+  std::vector<ExertedTraction<dim>> on_masters;
 };
 } // namespace hpvi
 

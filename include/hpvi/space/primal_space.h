@@ -6,6 +6,7 @@
 #include <hpvi/scene/scene.h>
 #include <hpvi/space/box_tables.h>
 #include <hpvi/space/contact_dof.h>
+#include <hpvi/space/opposite_faces.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/distributed/tria.h>
@@ -14,6 +15,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,7 +26,8 @@ namespace hpvi
  * The displacements of one degree on a distributed mesh of hexahedra, in the plane of boxes, in the basis in which contact is
  * diagonal: contact dofs stand for the inner nodal values of tangential components on faces with friction, and of
  * the normal one where contact has a pressure (see BoxTables). Contact dofs belong to one cell, never hang and
- * are never prescribed.
+ * are never prescribed. Where two bodies touch in space one of them, the slave, has contact dofs: moments of the jump, see
+ * OppositeFaces.
  *
  * A field has two vectors: v in the basis of contact dofs, constrained unknowns zero; u of nodal values,
  * complete, with those of neighbouring cells of other processes.
@@ -81,12 +84,31 @@ public:
    */
   bool has_tangential_contact_dofs(const BoundaryCondition<dim> &boundary) const
   {
-    return boundary.has_contact() &&
-           (boundary.friction || (rests_on_contact && boundary.is_unilateral()));
+    return boundary.has_contact() && !is_master(boundary.id) &&
+           (boundary.friction || boundary.is_tied() ||
+            (rests_on_contact && boundary.is_unilateral()));
+  }
+
+  bool has_normal_contact_dofs(const BoundaryCondition<dim> &boundary) const
+  {
+    return boundary.has_pressure() && !is_master(boundary.id);
+  }
+
+  /** Is it a part of a pair of bodies that has no multipliers? */
+  bool is_master(const dealii::types::boundary_id boundary) const
+  {
+    return !masters.empty() && masters[boundary];
   }
 
   /** A face of this process; null: it has no contact dofs. */
   const ContactDofFace<dim> *moment_face(const Cell &cell, unsigned int face) const;
+
+  /** Nodal values of u opposite to faces, for moment_opposite(); none where no bodies touch. Collective. */
+  std::vector<double> values_opposite(const DistributedVector &u) const;
+
+  /** `sum_d R_kd u_d` on a face by its number, of values_opposite(). */
+  dealii::Tensor<1, dim> moment_opposite(unsigned int face, unsigned int k,
+                                         const std::vector<double> &values) const;
 
   /** Friction counts the contact dofs of @p u, with those of neighbours, for no slip: that of the load step before. */
   void count_slip_from(const DistributedVector &u);
@@ -97,10 +119,11 @@ public:
   dealii::DoFHandler<dim> dof_handler;
   dealii::IndexSet owned, relevant;
   dealii::AffineConstraints<double> constraints;
-  std::vector<ContactDofFace<dim>> faces; ///< of this process, as the next
-  std::vector<ContactDof<dim>> contact;   ///< what acts at its Gauss points
-  std::optional<DistributedVector> past;  ///< of count_slip_from()
-  dealii::types::global_dof_index n_free; ///< of all processes, as all that follows
+  std::vector<ContactDofFace<dim>> faces;        ///< of this process, as the next
+  std::unique_ptr<const OppositeFaces> opposite; ///< of #faces; null: no bodies touch each other
+  std::vector<ContactDof<dim>> contact;          ///< what acts at its Gauss points
+  std::optional<DistributedVector> past;         ///< of count_slip_from()
+  dealii::types::global_dof_index n_free;        ///< of all processes, as all that follows
   dealii::types::global_dof_index n_discs;
   dealii::types::global_dof_index n_pressures;
 
@@ -112,6 +135,7 @@ public:
 private:
   void number();
   void find_contact();
+  void find_opposite_faces();
   void add_contact_dofs(const ContactDofFace<dim> &face, typename ContactDof<dim>::Kind kind,
                         const std::vector<dealii::types::global_dof_index> &dofs);
   template <typename Value>
@@ -123,6 +147,7 @@ private:
                                       unsigned int shape, unsigned int component) const;
 
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> face_numbers; ///< by cell, face
+  std::vector<bool> masters; ///< by boundary; none: no bodies touch each other
 };
 } // namespace hpvi
 

@@ -4,7 +4,11 @@
 
 #include <hpvi/space/box_stiffness.h>
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
+#include <vector>
 
 namespace hpvi
 {
@@ -39,12 +43,17 @@ private:
   CellField<dim> body_load(const Cell &cell) const;
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
   CellField<dim> load(const Cell &cell) const;
-  void assemble_loads();
+  void assemble_loads(std::vector<double> &far);
+  void assemble_with_opposite(const Cell &cell, std::vector<double> &far);
+  bool is_slave_cell(const Cell &cell) const;
+  dealii::DynamicSparsityPattern sparsity(dealii::IndexSet &rows) const;
+  void add_with_opposite(const Cell &cell);
   void add_nodal_forces(const DistributedVector &u, NodalForces &forces) const;
 
   const PrimalSpace<dim> &space;
   const BoxStiffness<dim> stiffness;
-  dealii::TrilinosWrappers::SparseMatrix A; ///< empty until matrix()
+  std::unique_ptr<const DistributedVector> lifted; ///< u where v = 0, while loads are assembled
+  dealii::TrilinosWrappers::SparseMatrix A;        ///< empty until matrix()
 };
 } // namespace hpvi
 

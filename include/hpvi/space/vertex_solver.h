@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_vertex_solver_h
+#define hpvi_vertex_solver_h
+
+#include <hpvi/space/multigrid_level.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+namespace hpvi
+{
+/**
+ * Corrects on a coarsest mesh of many cells by displacements of degree one on the same cells, of which algebraic multigrid
+ * (ML) has an assembled matrix: p = 1 below p. With P, which interpolates and takes contact dofs of it, that matrix is
+ *
+ *     P'AP + sum_k w_k S_k w_k',    w_k the mean int psi_k u / int psi_k at the corners of the face,
+ *
+ * S being H where a contact dof slips, and A's own block where one is held: what the correction moves there is set to zero
+ * on the mesh, which costs just that energy. So no corner is held, whatever the normals of its faces are.
+ */
+class VertexSolver
+{
+public:
+  using Vector = MultigridLevel<float>::Vector;
+
+  /** @p level must outlive it, and has no hanging nodes. Collective. */
+  explicit VertexSolver(const MultigridLevel<float> &level);
+
+  /** With the states of the level; set up anew where more than a fiftieth of them has changed. Collective. */
+  void linearise();
+
+  /** x += P M P'r with one cycle M of ML; r is lost. Collective. */
+  void correct(Vector &x, Vector &r) const;
+
+private:
+  using Block = MultigridLevel<float>::Block;
+  using VertexVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  struct Cell ///< one of this process
+  {
+    std::array<unsigned int, 8> vertices; ///< local elements of their first component
+    unsigned int end;                     ///< of its #nodes
+  };
+  struct Node ///< which takes its value from this cell
+  {
+    unsigned int local;   ///< element of its first component
+    unsigned short shape; ///< of the cell
+  };
+  struct ContactFace
+  {
+    std::array<dealii::types::global_dof_index, 4> vertices; ///< their first components
+    std::vector<std::array<double, 4>> means;                ///< w_k
+    const ContactDofFace<3> *face;
+  };
+
+  void number();
+  void assemble();
+  void find_contact();
+  void add_contact();
+  void add(const ContactFace &face, unsigned int k, const std::vector<unsigned int> &components,
+           std::size_t contact_dof);
+  Block stiffness(std::size_t k) const;
+
+  const MultigridLevel<float> &level;
+  const BoxTables<3> tables; ///< of degree one
+  dealii::DoFHandler<3> dof_handler;
+  dealii::AffineConstraints<double> constraints; ///< zero where the mesh is constrained
+  std::vector<Cell> cells;
+  std::vector<Node> nodes;
+  std::vector<std::array<double, 8>> weights; ///< of corners, by shape function of the mesh
+  std::vector<ContactFace> faces;
+  std::vector<unsigned int> constrained; ///< of this process
+  dealii::TrilinosWrappers::SparseMatrix A;
+  std::vector<Block> inserted; ///< S in A, of each contact dof
+  std::vector<bool> was_held;  ///< when ML was set up
+  std::vector<double> motions;
+  std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
+  mutable VertexVector residual, correction; ///< with all corners of this process's cells
+  mutable Vector change;
+};
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
+#include <hpvi/scene/slave_side.h>
+
+#include <array>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Faces of the coarse mesh on one part of a pair, and the mean of the moduli behind them. */
+struct PairPart
+{
+  unsigned int n_faces = 0;
+  double stiffness = 0;
+};
+
+PairPart part_of_pair(const Scene<3> &scene, const BoundaryCondition<3> &boundary)
+{
+  PairPart result;
+  double area = 0;
+  for (const CoarseFace<3> &face : coarse_faces(scene.geometry, boundary.side))
+    if (boundary_at(scene, boundary.side, middle_of(face)) == boundary.id)
+    {
+      const double own = area_of(face.corners);
+      ++result.n_faces;
+      area += own;
+      result.stiffness +=
+          own *
+          scene.materials[scene.material_of_coarse_cell(face.inside, face.cell)].coercivity(3);
+    }
+  result.stiffness /= area;
+  return result;
+}
+} // namespace
+
+unsigned int slave_of(const Scene<3> &scene, const ContactPair &pair)
+{
+  constexpr double similar = 3;
+  if (pair.slave)
+    return *pair.slave;
+  const std::array<PairPart, 2> parts{{part_of_pair(scene, scene.boundaries[pair.parts[0]]),
+                                       part_of_pair(scene, scene.boundaries[pair.parts[1]])}};
+  const double ratio = parts[1].stiffness / parts[0].stiffness;
+  if (ratio >= similar || ratio <= 1 / similar || parts[0].n_faces == parts[1].n_faces)
+    return ratio < 1 - 1e-12 ? 1 : 0;
+  return parts[1].n_faces > parts[0].n_faces ? 1 : 0;
+}
+
+std::vector<bool> masters_of(const Scene<3> &scene)
+{
+  std::vector<bool> result(scene.boundaries.size(), false);
+  for (const ContactPair &pair : scene.pairs)
+    result[pair.parts[1 - slave_of(scene, pair)]] = true;
+  return result;
+}
+} // namespace hpvi

@@ -1,0 +1,520 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/processes.h>
+#include <hpvi/base/text.h>
+#include <hpvi/space/common_part.h>
+#include <hpvi/space/opposite_faces.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+using Cell = DoFHandler<3>::active_cell_iterator;
+
+constexpr double uncovered =
+    1e-6; ///< of a slave's face: what round-off at the ends of sides may leave
+
+/** Corners of a face in order, of which deal.II swaps the last two. */
+std::array<Point<3>, 4> around(const CellMap<3> &map, const unsigned int face)
+{
+  std::array<Point<3>, 4> result;
+  for (unsigned int v = 0; v < 4; ++v)
+    result[v ^ (v >> 1)] = map.vertices()[GeometryInfo<3>::face_to_cell_vertices(face, v)];
+  return result;
+}
+
+OppositeNode node_at(const Point<3> &x, const types::global_dof_index first,
+                     const AffineConstraints<double> &constraints)
+{
+  OppositeNode node{x, first, {}};
+  for (unsigned int c = 0; c < 3; ++c)
+    if (!constraints.is_constrained(first + c))
+      node.entries[c] = {{first + c, 1.}};
+    else
+      node.entries[c] = *constraints.get_constraint_entries(first + c);
+  return node;
+}
+
+std::vector<unsigned int> shapes_on(const BoxTables<3> &tables, const unsigned int face)
+{
+  std::vector<unsigned int> result = tables.rim[face];
+  result.insert(result.end(), tables.inner[face].begin(), tables.inner[face].end());
+  return result;
+}
+
+/** Of this process. */
+std::vector<MasterFace> own_masters(const DoFHandler<3> &dof_handler, const BoxTables<3> &tables,
+                                    const AffineConstraints<double> &constraints,
+                                    const std::vector<bool> &is_master)
+{
+  std::vector<MasterFace> result;
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  const unsigned int rank = rank_of(dof_handler.get_communicator());
+  for (const Cell &cell : dof_handler.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+    {
+      if (!cell->is_locally_owned() || !cell->at_boundary(face) ||
+          !is_master[cell->face(face)->boundary_id()])
+        continue;
+      const CellMap<3> map = map_of<3>(cell);
+      MasterFace master{{map.vertices().begin(), map.vertices().end()},
+                        face,
+                        cell->face(face)->boundary_id(),
+                        cell->material_id(),
+                        rank,
+                        cell->active_cell_index(),
+                        {}};
+      cell->get_dof_indices(dofs);
+      for (const unsigned int shape : shapes_on(tables, face))
+      {
+        const unsigned int number = tables.numbers[shape][0];
+        master.nodes.push_back(
+            node_at(map.point(tables.fe.unit_support_point(number)), dofs[number], constraints));
+      }
+      result.push_back(master);
+    }
+  return result;
+}
+
+/** Axes in the plane of a face of a slave. */
+struct FacePlane
+{
+  Point<3> origin;
+  ContactAxes<3> axes;
+
+  Point<2> at(const Point<3> &x) const
+  {
+    return {(x - origin) * axes.tangents[0], (x - origin) * axes.tangents[1]};
+  }
+
+  Point<3> point(const Point<2> &x) const
+  {
+    return origin + x[0] * axes.tangents[0] + x[1] * axes.tangents[1];
+  }
+
+  ConvexPolygon polygon(const std::array<Point<3>, 4> &corners) const
+  {
+    ConvexPolygon result;
+    for (const Point<3> &corner : corners)
+      result.push_back(at(corner));
+    if (area_of(result) < 0)
+      std::reverse(result.begin(), result.end());
+    return result;
+  }
+};
+
+/** Masters as seen along one normal, in squares of a grid: of thousands a few are looked at. */
+class MastersAcross
+{
+public:
+  MastersAcross(const std::vector<MasterFace> &masters, const ContactAxes<3> &axes)
+      : plane{Point<3>(), axes}, polygons(masters.size())
+  {
+    double size = 0;
+    for (unsigned int m = 0; m < masters.size(); ++m)
+    {
+      const CellMap<3> map = masters[m].map();
+      Point<3> middle(0.5, 0.5, 0.5);
+      middle[masters[m].face / 2] = masters[m].face % 2;
+      if (map.normal(masters[m].face, middle) * axes.normal > -same_way)
+        continue; // it looks away, or is seen from its edge
+      polygons[m] = plane.polygon(around(map, masters[m].face));
+      for (unsigned int d = 0; d < 2; ++d)
+        size = std::max(size, extent(polygons[m], d)[1] - extent(polygons[m], d)[0]);
+    }
+    width = size > 0 ? size : 1;
+    for (unsigned int m = 0; m < masters.size(); ++m)
+      if (!polygons[m].empty())
+        for_squares(polygons[m],
+                    [&](const std::array<long, 2> &square) { by_square[square].push_back(m); });
+  }
+
+  /** Numbers, ascending, of those that may lie opposite to a face. */
+  std::set<unsigned int> beside(const ConvexPolygon &polygon) const
+  {
+    std::set<unsigned int> result;
+    for_squares(polygon,
+                [&](const std::array<long, 2> &square)
+                {
+                  if (const auto found = by_square.find(square); found != by_square.end())
+                    result.insert(found->second.begin(), found->second.end());
+                });
+    return result;
+  }
+
+  const FacePlane plane;
+  std::vector<ConvexPolygon> polygons; ///< by master; empty: it faces the other way
+
+private:
+  static constexpr double same_way = 0.1; ///< cosine of the angle between both faces, at least
+
+  static std::array<double, 2> extent(const ConvexPolygon &polygon, const unsigned int d)
+  {
+    std::array<double, 2> result{{polygon[0][d], polygon[0][d]}};
+    for (const Point<2> &x : polygon)
+      result = {{std::min(result[0], x[d]), std::max(result[1], x[d])}};
+    return result;
+  }
+
+  template <class Take>
+  void for_squares(const ConvexPolygon &polygon, const Take &take) const
+  {
+    std::array<std::array<long, 2>, 2> range;
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int end = 0; end < 2; ++end)
+        range[d][end] = static_cast<long>(std::floor(extent(polygon, d)[end] / width));
+    for (long i = range[0][0]; i <= range[0][1]; ++i)
+      for (long j = range[1][0]; j <= range[1][1]; ++j)
+        take({{i, j}});
+  }
+
+  double width = 1;
+  std::map<std::array<long, 2>, std::vector<unsigned int>> by_square;
+};
+
+/** Lagrange's polynomials at the nodes of a cell, by shape function and axis. */
+class NodalPolynomials
+{
+public:
+  explicit NodalPolynomials(const BoxTables<3> &tables)
+      : basis(Polynomials::generate_complete_Lagrange_basis(
+            QGaussLobatto<1>(tables.degree + 1).get_points())),
+        of_axis(tables.n_shapes)
+  {
+    const std::vector<Point<1>> nodes = QGaussLobatto<1>(tables.degree + 1).get_points();
+    for (unsigned int shape = 0; shape < tables.n_shapes; ++shape)
+    {
+      const Point<3> x = tables.fe.unit_support_point(tables.numbers[shape][0]);
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          if (std::abs(nodes[i][0] - x[d]) < 1e-10)
+            of_axis[shape][d] = i;
+    }
+  }
+
+  /** The values of @p shapes at a point of the unit cell, on @p face. */
+  std::vector<double> values(const std::vector<unsigned int> &shapes, const unsigned int face,
+                             const Point<3> &x) const
+  {
+    const auto axes = tangents<3>(face);
+    std::array<std::vector<double>, 2> along;
+    for (unsigned int s = 0; s < 2; ++s)
+      for (const auto &polynomial : basis)
+        along[s].push_back(polynomial.value(x[axes[s]]));
+    std::vector<double> result;
+    for (const unsigned int shape : shapes)
+      result.push_back(along[0][of_axis[shape][axes[0]]] * along[1][of_axis[shape][axes[1]]]);
+    return result;
+  }
+
+private:
+  const std::vector<Polynomials::Polynomial<double>> basis;
+  std::vector<std::array<unsigned int, 3>> of_axis;
+};
+
+/** The point of the unit cell at a point @p x of a face of it, or of what lies above the face along @p n. */
+Point<3> reference_on(const CellMap<3> &map, const unsigned int face, const Point<3> &x,
+                      const Tensor<1, 3> &n)
+{
+  Point<3> reference(0.5, 0.5, 0.5);
+  reference[face / 2] = face % 2;
+  const auto axes = tangents<3>(face);
+  for (unsigned int step = 0; step < 30; ++step)
+  {
+    // x + h n = point(reference), h and both coordinates along the face unknown
+    const Tensor<2, 3> J = map.jacobian(reference);
+    Tensor<2, 3> system;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      system[d][0] = J[d][axes[0]];
+      system[d][1] = J[d][axes[1]];
+      system[d][2] = -n[d];
+    }
+    const Tensor<1, 3> change = invert(system) * (x - map.point(reference));
+    reference[axes[0]] += change[0];
+    reference[axes[1]] += change[1];
+    // The offset along n is linear: a face that is a parallelogram is done at once.
+    if (std::abs(change[0]) + std::abs(change[1]) < 1e-14 || (step == 0 && map.is_affine()))
+      break;
+  }
+  return reference;
+}
+
+/** Puts together what lies opposite to one face after the other. */
+class Search
+{
+public:
+  Search(const Scene<3> &scene, const BoxTables<3> &tables, const std::vector<MasterFace> &masters)
+      : scene(scene), tables(tables), masters(masters), polynomials(tables)
+  {
+    for (const MasterFace &master : masters)
+      shapes.push_back(shapes_on(tables, master.face));
+  }
+
+  /** Rows have numbers of nodes `node_of(master, i)`. */
+  template <class NodeOf>
+  OppositeFaces::Opposite opposite(const ContactDofFace<3> &slave, const NodeOf &node_of);
+
+private:
+  const MastersAcross &across(const ContactAxes<3> &axes);
+  void integrate(const ContactDofFace<3> &slave, const CellMap<3> &map, const FacePlane &plane,
+                 const ConvexPolygon &polygon, unsigned int master);
+
+  const Scene<3> &scene;
+  const BoxTables<3> &tables;
+  const std::vector<MasterFace> &masters;
+  const NodalPolynomials polynomials;
+  std::vector<std::vector<unsigned int>> shapes; ///< by master
+  std::vector<std::pair<Tensor<1, 3>, std::unique_ptr<const MastersAcross>>> known;
+  std::map<std::pair<unsigned int, unsigned int>, std::vector<double>>
+      integrals;             ///< of psi_k phi_d, by master and node
+  std::vector<double> areas; ///< int psi_k by the same rule
+};
+
+const MastersAcross &Search::across(const ContactAxes<3> &axes)
+{
+  for (const auto &[normal, view] : known)
+    if ((normal - axes.normal).norm() < 1e-12)
+      return *view;
+  known.emplace_back(axes.normal, std::make_unique<const MastersAcross>(masters, axes));
+  return *known.back().second;
+}
+
+void Search::integrate(const ContactDofFace<3> &slave, const CellMap<3> &map,
+                       const FacePlane &plane, const ConvexPolygon &polygon,
+                       const unsigned int master)
+{
+  const CellMap<3> other = masters[master].map();
+  const unsigned int exact = 2 * tables.degree - 1,
+                     n = map.is_affine() && other.is_affine() ? exact : exact + 4,
+                     n_dofs = tables.n_contact_dofs();
+  std::vector<double> psi(n_dofs);
+  for (const WeightedPoint &point : rule_on(polygon, n))
+  {
+    const Point<3> x = plane.point(point.x);
+    const Point<3> own = reference_on(map, slave.face, x, slave.axes.normal),
+                   there = reference_on(other, masters[master].face, x, slave.axes.normal);
+    for (unsigned int k = 0; k < n_dofs; ++k)
+    {
+      psi[k] = point.weight * tables.psi(k, slave.face, own);
+      areas[k] += psi[k];
+    }
+    const std::vector<double> phi = polynomials.values(shapes[master], masters[master].face, there);
+    for (unsigned int d = 0; d < phi.size(); ++d)
+    {
+      std::vector<double> &sums = integrals[{master, d}];
+      sums.resize(n_dofs);
+      for (unsigned int k = 0; k < n_dofs; ++k)
+        sums[k] += psi[k] * phi[d];
+    }
+  }
+}
+
+template <class NodeOf>
+OppositeFaces::Opposite Search::opposite(const ContactDofFace<3> &slave, const NodeOf &node_of)
+{
+  const CellMap<3> map = map_of<3>(slave.cell);
+  const auto corners = around(map, slave.face);
+  const MastersAcross &view = across(slave.axes);
+  FacePlane plane{corners[0], slave.axes};
+  const ConvexPolygon seen = view.plane.polygon(corners), own = plane.polygon(corners);
+  const Tensor<1, 2> shift = seen[0] - own[0];
+  const auto &pair =
+      scene.pairs[*scene.boundaries[slave.cell->face(slave.face)->boundary_id()].pair];
+  OppositeFaces::Opposite result;
+  integrals.clear();
+  areas.assign(tables.n_contact_dofs(), 0.);
+  double covered = 0;
+  for (const unsigned int m : view.beside(seen))
+  {
+    if (masters[m].boundary != pair.parts[0] && masters[m].boundary != pair.parts[1])
+      continue;
+    ConvexPolygon other = view.polygons[m];
+    for (Point<2> &x : other)
+      x -= shift;
+    const ConvexPolygon polygon = common_part(own, other);
+    const double area = polygon.empty() ? 0. : area_of(polygon);
+    if (area <= 1e-14 * area_of(own))
+      continue;
+    covered += area;
+    integrate(slave, map, plane, polygon, m);
+    result.parts.push_back({m, {}});
+    for (const Point<2> &x : polygon)
+      result.parts.back().corners.push_back(plane.point(x));
+  }
+  if (std::abs(covered / area_of(own) - 1) > uncovered)
+    throw NumericalFailure(
+        "a face of a body at " + to_string(slave.cell->face(slave.face)->center()) +
+        " lies opposite to " + (covered < area_of(own) ? "no" : "more than one") +
+        " face of the other one along a part of it; give both bodies cells that "
+        "end where the other one does");
+  std::map<unsigned int, unsigned int> rows; // by node
+  for (const auto &[place, sums] : integrals)
+  {
+    const unsigned int node = node_of(place.first, place.second);
+    const auto [row, is_new] = rows.emplace(node, result.rows.size());
+    if (is_new)
+      result.rows.push_back({node, std::vector<double>(areas.size(), 0.)});
+    for (unsigned int k = 0; k < areas.size(); ++k)
+      result.rows[row->second].moments[k] += sums[k] / areas[k];
+  }
+  return result;
+}
+} // namespace
+
+CellMap<3> MasterFace::map() const
+{
+  CellMap<3>::Vertices vertices;
+  std::copy(corners.begin(), corners.end(), vertices.begin());
+  return CellMap<3>(vertices);
+}
+
+OppositeFaces::OppositeFaces(const Scene<3> &scene, const DoFHandler<3> &dof_handler,
+                             const BoxTables<3> &tables,
+                             const AffineConstraints<double> &constraints,
+                             const std::vector<ContactDofFace<3>> &slaves,
+                             const std::vector<bool> &master_boundaries)
+    : tables(tables)
+{
+  MPI_Comm communicator = dof_handler.get_communicator();
+  std::vector<MasterFace> all;
+  for (auto &part : Utilities::MPI::all_gather(
+           communicator, own_masters(dof_handler, tables, constraints, master_boundaries)))
+    all.insert(all.end(), part.begin(), part.end());
+  collectively(communicator,
+               [&]()
+               {
+                 std::map<types::global_dof_index, unsigned int> numbers; // of nodes
+                 const auto node_of = [&](const unsigned int master, const unsigned int i)
+                 {
+                   const OppositeNode &node = all[master].nodes[i];
+                   const auto [known, is_new] = numbers.emplace(node.first, nodes.size());
+                   if (is_new)
+                     nodes.push_back(node);
+                   return known->second;
+                 };
+                 Search search(scene, tables, all);
+                 std::map<unsigned int, unsigned int> kept; // of all masters
+                 for (const ContactDofFace<3> &slave : slaves)
+                 {
+                   const auto &condition =
+                       scene.boundaries[slave.cell->face(slave.face)->boundary_id()];
+                   faces.emplace_back();
+                   if (!condition.pair)
+                     continue;
+                   faces.back() = search.opposite(slave, node_of);
+                   for (Part &part : faces.back().parts)
+                   {
+                     const auto [known, is_new] = kept.emplace(part.master, masters.size());
+                     if (is_new)
+                       masters.push_back(all[part.master]);
+                     part.master = known->second;
+                   }
+                 }
+               });
+  number_nodes(dof_handler.locally_owned_dofs(), communicator);
+}
+
+void OppositeFaces::number_nodes(const IndexSet &owned, MPI_Comm communicator)
+{
+  std::set<types::global_dof_index> components, free;
+  for (const OppositeNode &node : nodes)
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      components.insert(node.first + c);
+      for (const auto &[unknown, weight] : node.entries[c])
+        free.insert(unknown);
+    }
+  of_nodes = std::make_unique<const FarValues>(
+      owned, std::vector<types::global_dof_index>(components.begin(), components.end()),
+      communicator);
+  of_unknowns = std::make_unique<const FarValues>(
+      owned, std::vector<types::global_dof_index>(free.begin(), free.end()), communicator);
+}
+
+unsigned int OppositeFaces::nodal_place(const unsigned int node, const unsigned int component) const
+{
+  return of_nodes->place(nodes[node].first + component);
+}
+
+/** By the part in which x lies, or beside which by round-off. */
+OppositeFaces::Place OppositeFaces::place(const unsigned int face, const Point<3> &x,
+                                          const Tensor<1, 3> &normal) const
+{
+  const Part *nearest = nullptr;
+  double outside = std::numeric_limits<double>::max();
+  for (const Part &part : faces[face].parts)
+  {
+    // The corners go round the normal, or the other way round: the first turn says which.
+    double beyond = 0, area = 0;
+    const std::size_t n = part.corners.size();
+    for (std::size_t k = 0; k < n; ++k)
+      area += cross_product_3d(part.corners[k] - part.corners[0],
+                               part.corners[(k + 1) % n] - part.corners[0]) *
+              normal;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+      const Tensor<1, 3> edge = part.corners[(k + 1) % n] - part.corners[k];
+      const double inside = cross_product_3d(edge, x - part.corners[k]) * normal;
+      if (edge.norm() > 0)
+        beyond = std::max(beyond, (area > 0 ? -inside : inside) / edge.norm());
+    }
+    if (beyond < outside)
+    {
+      outside = beyond;
+      nearest = &part;
+    }
+  }
+  AssertThrow(nearest, ExcMessage("Nothing lies opposite to a face of a slave."));
+  const MasterFace &master = masters[nearest->master];
+  return {nearest->master, reference_on(master.map(), master.face, x, normal)};
+}
+
+std::vector<OppositeFaces::PartPoint>
+OppositeFaces::points_of(const Part &part, const ContactAxes<3> &axes, const unsigned int n) const
+{
+  const FacePlane plane{part.corners[0], axes};
+  ConvexPolygon polygon;
+  for (const Point<3> &corner : part.corners)
+    polygon.push_back(plane.at(corner));
+  const MasterFace &master = masters[part.master];
+  const CellMap<3> map = master.map();
+  std::vector<PartPoint> result;
+  for (const WeightedPoint &point : rule_on(polygon, n))
+  {
+    const Point<3> x = plane.point(point.x);
+    result.push_back({x, std::abs(point.weight), reference_on(map, master.face, x, axes.normal)});
+  }
+  return result;
+}
+
+Tensor<1, 3> OppositeFaces::displacement(const Place &place,
+                                         const std::vector<double> &values) const
+{
+  const MasterFace &master = masters[place.master];
+  const std::vector<unsigned int> shapes = shapes_on(tables, master.face);
+  Tensor<1, 3> result;
+  for (unsigned int i = 0; i < shapes.size(); ++i)
+  {
+    const double phi = tables.fe.shape_value(tables.numbers[shapes[i]][0], place.reference);
+    for (unsigned int c = 0; c < 3; ++c)
+      result[c] += phi * values[of_nodes->place(master.nodes[i].first + c)];
+  }
+  return result;
+}
+} // namespace hpvi

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/space/algebraic_multigrid.h>
+#include <hpvi/space/rigid_motions.h>
+#include <hpvi/space/vertex_solver.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+using Dof = types::global_dof_index;
+} // namespace
+
+VertexSolver::VertexSolver(const MultigridLevel<float> &level)
+    : level(level), tables(1), dof_handler(level.space.dof_handler.get_triangulation()),
+      inserted(level.space.contact.size())
+{
+  number();
+  assemble();
+  find_contact();
+  level.reinit(change);
+}
+
+/** Corners, and for each node of this process a cell of this process that has it. */
+void VertexSolver::number()
+{
+  const PrimalSpace<3> &space = level.space;
+  dof_handler.distribute_dofs(tables.fe);
+  IndexSet relevant;
+  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+  constraints.reinit(relevant);
+  const FE_Q<3> linear(1), of_level(space.tables.degree);
+  const auto &points = of_level.get_unit_support_points();
+  for (const Point<3> &x : points)
+  {
+    weights.emplace_back();
+    for (unsigned int j = 0; j < 8; ++j)
+      weights.back()[j] = linear.shape_value(j, x);
+  }
+  std::vector<Dof> own(tables.fe.dofs_per_cell), of_mesh(space.tables.fe.dofs_per_cell);
+  const auto corners = [&](const auto &cell)
+  {
+    DoFHandler<3>::active_cell_iterator(*cell, &dof_handler)->get_dof_indices(own);
+    cell->get_dof_indices(of_mesh);
+  };
+  IndexSet needed(dof_handler.n_dofs());
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (!cell->is_artificial())
+    {
+      corners(cell);
+      for (unsigned int j = 0; j < 8; ++j) // nodes at corners come first
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const Dof dof = own[tables.numbers[j][c]];
+          if (space.constraints.is_constrained(of_mesh[space.tables.numbers[j][c]]) &&
+              !constraints.is_constrained(dof))
+            constraints.add_line(dof);
+          if (cell->is_locally_owned())
+            needed.add_index(dof);
+        }
+    }
+  constraints.close();
+  residual.reinit(dof_handler.locally_owned_dofs(), needed, space.communicator());
+  correction.reinit(residual);
+  for (const Dof dof : dof_handler.locally_owned_dofs())
+    if (constraints.is_constrained(dof))
+      constrained.push_back(residual.get_partitioner()->global_to_local(dof));
+  std::vector<bool> is_taken(space.owned.n_elements());
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      corners(cell);
+      cells.emplace_back();
+      for (unsigned int j = 0; j < 8; ++j)
+        cells.back().vertices[j] =
+            residual.get_partitioner()->global_to_local(own[tables.numbers[j][0]]);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        if (const Dof dof = of_mesh[space.tables.numbers[i][0]]; space.owned.is_element(dof))
+        {
+          const unsigned int local = space.owned.index_within_set(dof);
+          if (!is_taken[local])
+            nodes.push_back({local, static_cast<unsigned short>(i)});
+          is_taken[local] = true;
+        }
+      cells.back().end = nodes.size();
+    }
+}
+
+void VertexSolver::assemble()
+{
+  const PrimalSpace<3> &space = level.space;
+  const IndexSet &owned = dof_handler.locally_owned_dofs();
+  IndexSet relevant;
+  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+  {
+    DynamicSparsityPattern pattern(relevant);
+    DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
+    SparsityTools::distribute_sparsity_pattern(pattern, owned, space.communicator(), relevant);
+    A.reinit(owned, owned, pattern, space.communicator());
+  }
+  const Point<3> centre = space.scene.geometry.centre();
+  const double length = space.scene.geometry.radius();
+  motions.resize(owned.n_elements() * n_motions<3>);
+  std::vector<Dof> dofs(tables.fe.dofs_per_cell);
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      cell->get_dof_indices(dofs);
+      constraints.distribute_local_to_global(
+          tables.stiffness(HookesLaw<3>(space.scene.material_of(cell)), map_of<3>(cell)), dofs, A);
+      for (unsigned int j = 0; j < 8; ++j)
+        for (unsigned int c = 0; c < 3; ++c)
+          if (const Dof dof = dofs[tables.numbers[j][c]];
+              owned.is_element(dof) && !constraints.is_constrained(dof))
+            for (unsigned int m = 0; m < n_motions<3>; ++m)
+              motions[m * owned.n_elements() + owned.index_within_set(dof)] =
+                  rigid_motion<3>(m, (cell->vertex(j) - centre) / length)[c];
+    }
+  A.compress(VectorOperation::add);
+}
+
+void VertexSolver::find_contact()
+{
+  const PrimalSpace<3> &space = level.space;
+  std::vector<Dof> dofs(tables.fe.dofs_per_cell);
+  for (const ContactDofFace<3> &face : space.faces)
+  {
+    DoFHandler<3>::active_cell_iterator(*face.cell, &dof_handler)->get_dof_indices(dofs);
+    faces.emplace_back();
+    faces.back().face = &face;
+    const FaceContactDofs &contact_dofs = space.contact_dofs_on(face);
+    faces.back().means.resize(space.tables.n_contact_dofs());
+    for (unsigned int j = 0; j < 4; ++j)
+    {
+      const unsigned int corner = GeometryInfo<3>::face_to_cell_vertices(face.face, j);
+      faces.back().vertices[j] = dofs[tables.numbers[corner][0]];
+      for (unsigned int k = 0; k < faces.back().means.size(); ++k)
+      {
+        double &mean = faces.back().means[k][j] = 0;
+        const auto add =
+            [&](const FullMatrix<double> &matrix, const std::vector<unsigned int> &shapes)
+        {
+          for (unsigned int i = 0; i < shapes.size(); ++i)
+            mean += matrix(k, i) * weights[shapes[i]][corner];
+        };
+        add(contact_dofs.M, space.tables.inner[face.face]);
+        add(contact_dofs.W, space.tables.rim[face.face]);
+      }
+    }
+  }
+}
+
+/** S */
+VertexSolver::Block VertexSolver::stiffness(const std::size_t k) const
+{
+  return level.states[k].is_held ? level.blocks[k] : level.states[k].stiffness;
+}
+
+/** The change of S since the last call, along @p components of the face. */
+void VertexSolver::add(const ContactFace &face, const unsigned int k,
+                       const std::vector<unsigned int> &components, const std::size_t contact_dof)
+{
+  const Block S = stiffness(contact_dof), change = S - inserted[contact_dof];
+  inserted[contact_dof] = S;
+  Tensor<2, 3> of_axes;
+  for (unsigned int s = 0; s < components.size(); ++s)
+    for (unsigned int t = 0; t < components.size(); ++t)
+      of_axes += change[s][t] * outer_product(face.face->direction(components[s]),
+                                              face.face->direction(components[t]));
+  FullMatrix<double> local(12, 12);
+  std::vector<Dof> dofs;
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      dofs.push_back(face.vertices[i] + c);
+      for (unsigned int j = 0; j < 4; ++j)
+        for (unsigned int d = 0; d < 3; ++d)
+          local(3 * i + c, 3 * j + d) = face.means[k][i] * of_axes[c][d] * face.means[k][j];
+    }
+  constraints.distribute_local_to_global(local, dofs, A);
+}
+
+/** Of all contact dofs. */
+void VertexSolver::add_contact()
+{
+  for (const ContactFace &face : faces)
+    for (unsigned int k = 0; k < face.means.size(); ++k)
+    {
+      if (face.face->has_friction())
+        add(face, k, {face.face->tangential(0), face.face->tangential(1)}, face.face->friction + k);
+      if (face.face->has_pressure())
+        add(face, k, {face.face->normal()}, face.face->pressure + k);
+    }
+  A.compress(VectorOperation::add);
+}
+
+// ML smooths by the matrix as it is: that changes when ML is set up, and not before.
+void VertexSolver::linearise()
+{
+  const PrimalSpace<3> &space = level.space;
+  std::vector<bool> is_held(level.states.size());
+  types::global_dof_index changed = 0;
+  for (unsigned int k = 0; k < is_held.size(); ++k)
+  {
+    is_held[k] = level.states[k].is_held;
+    changed += amg && is_held[k] != was_held[k];
+  }
+  if (amg &&
+      50 * Utilities::MPI::sum(changed, space.communicator()) <= space.n_discs + space.n_pressures)
+    return;
+  was_held = is_held;
+  add_contact();
+  std::vector<double> free_motions = motions; // ML scales them
+  Teuchos::ParameterList parameters = algebraic_multigrid<3>(free_motions);
+  amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
+  amg->initialize(A, parameters);
+}
+
+void VertexSolver::correct(Vector &x, Vector &r) const
+{
+  level.mask(r);
+  level.transform().to_moments_transposed(r);
+  residual = 0;
+  auto node = nodes.begin();
+  for (const Cell &cell : cells)
+    for (; node != nodes.begin() + cell.end; ++node)
+      for (unsigned int j = 0; j < 8; ++j)
+        if (const double weight = weights[node->shape][j]; weight != 0)
+          for (unsigned int c = 0; c < 3; ++c)
+            residual.local_element(cell.vertices[j] + c) +=
+                weight * r.local_element(node->local + c);
+  residual.compress(VectorOperation::add);
+  for (const unsigned int i : constrained)
+    residual.local_element(i) = 0;
+  amg->vmult(correction, residual);
+  for (const unsigned int i : constrained)
+    correction.local_element(i) = 0;
+  correction.update_ghost_values();
+  change = 0;
+  node = nodes.begin();
+  for (const Cell &cell : cells)
+    for (; node != nodes.begin() + cell.end; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        double sum = 0;
+        for (unsigned int j = 0; j < 8; ++j)
+          sum += weights[node->shape][j] * correction.local_element(cell.vertices[j] + c);
+        change.local_element(node->local + c) = sum;
+      }
+  correction.zero_out_ghost_values();
+  level.transform().to_moments(change);
+  level.mask(change);
+  x += change;
+}
+} // namespace hpvi

@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""space_bodies.py HPVI MPIRUN: two boxes in space whose meshes do not match. A uniform pressure passes from one to the other
+exactly, with hanging nodes, for all degrees and on one to three processes; layers between planes of symmetry are the runs of the
+plane; forces balance on each body; either may be the slave; on a stiff body the other one is as on a rigid floor."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from runs import PROGRAM as HPVI
+
+MPIRUN = sys.argv[1]  # runs.py has taken the program
+# A block with E = 10 on one with E = 20, both between planes of symmetry, pressed together by an interference of 0.01:
+# p = 0.01/(0.5/10 + 1/20) = 0.1.
+SCENE = """set Dimension = 3
+subsection Body high
+  set Lower corner = 0, 1, 0
+  set Upper corner = 1, 1.5, 1
+  set Subdivisions = 3, 1, 3
+  set Material     = soft
+end
+subsection Body low
+  set Upper corner = 1, 1, 1
+  set Subdivisions = 5, 1, 4
+end
+subsection Material
+  set Young's modulus = 20
+  set Poisson's ratio = 0.3
+end
+subsection Material soft
+  set Young's modulus = 10
+end
+subsection Contact joint
+  set Between = high.bottom, low.top
+  set Gap     = -0.01
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+subsection Solver
+  set Primal tolerance = 1e-13
+end
+"""
+SYMMETRIC = [f"Boundary {side}/Symmetry=true" for side in ("high.top", "high.left", "high.front", "low.bottom", "low.left", "low.front")]
+GRADED = ["Body high/Graded towards=0, 1, 0", "Body high/Grading levels=1", "Body low/Graded towards=1, 1, 1", "Body low/Grading levels=1"]
+FRICTION = ["Boundary high.top/Displacement=0.02; -0.01; 0.01", "Boundary low.bottom/Displacement=0; 0; 0", "Contact joint/Gap="]
+# Two bodies as a layer of one cell between z = 0 and 0.5, and the same in the plane, as strings of LAYERED.
+LAYERED = """set Dimension = {dim}
+subsection Body low
+  set Lower corner = {lower}, -1{zero}
+  set Upper corner = 3, 0{depth}
+  set Subdivisions = 6, 2{one}
+end
+subsection Body high
+  set Lower corner = 1, 0{zero}
+  set Upper corner = 2, 1{depth}
+  set Subdivisions = 5, 2{one}
+  set Material     = soft
+end
+subsection Material
+  set Young's modulus = 20
+  set Poisson's ratio = 0.3
+end
+subsection Material soft
+  set Young's modulus = 10
+  set Poisson's ratio = 0.25
+end
+subsection Boundary low.bottom
+  set Displacement = 0; 0{none}
+end
+subsection Boundary high.top
+  set Displacement = 0.03; -0.02{none}
+end
+{symmetry}subsection Contact joint
+  set Between = high.bottom, low.top
+  set Slave   = high.bottom
+  {law}
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+subsection Solver
+  set Normal contact = multiplier
+  {tolerance}
+end
+"""
+LAWS = ["set Friction bound = 0.055", "set Friction coefficient = 0.3", "set Law = tied",
+        "set Law = bilateral", "set Gap = 0.01*(x - 1.5)^2\n  set Friction coefficient = 0.3"]
+failures = 0
+
+
+def expect(is_so, *what):
+    global failures
+    if not is_so:
+        failures += 1
+        print("FAILED:", *what)
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def solve(directory, entries, processes=1, scene=SCENE):
+    """The contact points, the summary and the last row of the run."""
+    start = [] if processes == 1 else [MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", str(processes)]
+    (directory / "blocks.prm").write_text(scene)
+    overrides = [word for entry in entries for word in ("--set", entry)]
+    done = subprocess.run([*start, HPVI, "--output", str(directory / "out"), str(directory / "blocks.prm"), *overrides],
+                          capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{entries}: status {done.returncode}\n{done.stdout}{done.stderr}")
+    out = directory / "out"
+    table = rows(out / "convergence.csv")
+    return rows(out / f"contact-{len(table):02}.csv"), json.loads((out / "summary.json").read_text()), table[-1]
+
+
+def largest(points, column, value):
+    return max(abs(float(point[column]) - value) for point in points)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    scratch = pathlib.Path(scratch)
+    # A uniform pressure is exact to round-off, whichever body has it and however cells lie.
+    for degree, extra, processes in ((2, GRADED, 1), (3, GRADED, 1), (4, [], 1), (2, GRADED, 2), (3, [], 3),
+                                     (2, ["Contact joint/Slave=high.bottom"], 1), (2, ["Solver/Linear=amg"], 1),
+                                     (2, ["Solver/Linear=direct", *GRADED], 2),
+                                     (2, ["Contact joint/Law=bilateral", "Contact joint/Gap=", "Boundary high.top/Symmetry=false",
+                                          "Boundary high.top/Traction=0; -0.1; 0"], 1)):
+        name = (degree, extra, processes)
+        points, summary, row = solve(scratch, [*SYMMETRIC, f"Adaptivity/Method=hup{degree}", *extra], processes)
+        # Conjugate gradients end at 0.3e-13 of the loads; a pressure is a force over an area of 0.06 and less.
+        tolerance = 1e-11 if "Solver/Linear=amg" in extra else 1e-12
+        expect(largest(points, "normal_traction", -0.1) < tolerance, name, largest(points, "normal_traction", -0.1))
+        expect(float(row["estimate_relative"]) < 1e-9, name, "estimate", row["estimate_relative"])
+        expect(summary["balance"]["force"] < 1e-11, name, summary["balance"])
+    # A layer has the energy per thickness of the plane, under all laws, with meshes that do not match.
+    for law in LAWS:
+        energies = []
+        for dim in (2, 3):
+            symmetry = "".join(f"subsection Boundary {body}.{side}\n  set Symmetry = true\nend\n"
+                               for body in ("low", "high") for side in ("front", "back"))
+            in_space = {"zero": ", 0", "depth": ", 0.5", "one": ", 1", "none": "; 0", "symmetry": symmetry, "tolerance": "set Primal tolerance = 1e-12"}
+            scene = LAYERED.format(dim=dim, lower=0, law=law, **(in_space if dim == 3 else dict.fromkeys(in_space, "")))
+            row = solve(scratch, [], scene=scene if dim == 3 else scene + "subsection Error\n  set Bound = false\nend\n")[2]
+            energies.append(float(row["lagrangian"]) / (0.5 if dim == 3 else 1))
+        expect(abs(energies[1] / energies[0] - 1) < 1e-8, law, energies)
+    # Friction: both bodies balance, forces are those of the other, and either may have the multipliers.
+    known = {}
+    for slave in ("high.bottom", "low.top"):
+        for law in ("Friction coefficient=0.3",):
+            points, summary, row = solve(scratch, [*FRICTION, f"Contact joint/Slave={slave}", f"Contact joint/{law}",
+                                                   "Solver/Primal tolerance=1e-10", "Adaptivity/Maximum steps=2"])
+            forces = {name: entry["force"] for name, entry in summary["forces"].items()}
+            for d in range(3):
+                expect(abs(forces["high.bottom"][d] + forces["low.top"][d]) < 1e-9, slave, law, forces)
+                expect(abs(forces["low.top"][d] + forces["low.bottom"][d]) < 1e-8, slave, law, forces)
+            expect(all(float(point["normal_traction"]) <= 1e-12 for point in points), slave, law, "tension")
+            other = known.setdefault(law, forces["high.bottom"])
+            for d in range(3):
+                expect(abs(other[d] - forces["high.bottom"][d]) < 2e-3 * max(map(abs, other)), slave, law, other, forces)
+    # A stiff body under the block is a rigid floor, up to 1/E.
+    away = []
+    for stiff in ("1e4", "1e5"):
+        points, summary, row = solve(scratch, [*FRICTION, f"Material/Young's modulus={stiff}", "Contact joint/Friction bound=0.03",
+                                               "Body low/Subdivisions=3, 1, 3", "Solver/Primal tolerance=1e-11"])
+        away.append(summary["forces"]["high.top"]["force"][0])
+    rigid = solve(scratch, [*FRICTION, "Material/Young's modulus=1e9", "Contact joint/Friction bound=0.03",
+                            "Body low/Subdivisions=3, 1, 3", "Solver/Primal tolerance=1e-11"])[1]["forces"]["high.top"]["force"][0]
+    expect(0.08 < (away[1] - rigid) / (away[0] - rigid) < 0.12, "stiff", away, rigid)
+sys.exit(failures > 0)
