@@ -96,7 +96,9 @@ double BoundaryTractions::stretch(const StressEdge &edge, const double s) const
 Tensor<1, 2> BoundaryTractions::load_on(const StressEdge &edge, const double s) const
 {
   const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
-  return outward(edge) * stretch(edge, s) * load_at<2>(condition.traction, point(edge, s));
+  const Point<2> x = point(edge, s);
+  return outward(edge) * stretch(edge, s) * solution.scene.circumference(x) *
+         load_at<2>(condition.traction, x);
 }
 
 /** What springs exert on the displacement that the stress is made of. */
@@ -113,7 +115,7 @@ Tensor<1, 2> BoundaryTractions::spring_on(const StressEdge &edge, const double s
   for (unsigned int i = 0; i < dofs.size(); ++i)
     nodal[numbering.component[i] * dofs.size() / 2 + numbering.shape[i]] = solution.u[dofs[i]];
   const std::vector<double> u = evaluate(tabulate<2>(p, {on_face}, {1.}, false).values, nodal);
-  return -outward(edge) * stretch(edge, s) *
+  return -outward(edge) * stretch(edge, s) * solution.scene.circumference(map.point(on_face)) *
          (condition.spring.stiffness(map.point(on_face), map.normal(side.face, on_face)) *
           Tensor<1, 2>({u[0], u[1]}));
 }
@@ -157,6 +159,25 @@ void BoundaryTractions::set(const unsigned int index)
     joints ? add_joint(index) : add_contact(index);
   for (unsigned int end = 0; !edge.is_curved && end < 2; ++end)
     meet_ends(edge, end, value(index, end));
+  if (solution.scene.is_axisymmetric())
+    vanish_on_axis(index);
+}
+
+/** Tractions all the way around an axis are zero on it: so are their polynomials, by the highest mode. */
+void BoundaryTractions::vanish_on_axis(const unsigned int index)
+{
+  const StressEdge &edge = patches.edges()[index];
+  for (const unsigned int end : {0, 1})
+    if (std::abs(point(edge, end)[0]) < 1e-12 * edge.length)
+      for (auto &half : halves[index])
+        for (std::vector<double> &coefficients : half)
+        {
+          double value = 0;
+          for (unsigned int i = 0; i < coefficients.size(); ++i)
+            value += coefficients[i] * legendre::at_end(i, end);
+          if (!coefficients.empty())
+            coefficients.back() -= value / legendre::at_end(coefficients.size() - 1, end);
+        }
 }
 
 void BoundaryTractions::add_contact(const unsigned int index)

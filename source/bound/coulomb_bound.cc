@@ -9,6 +9,7 @@
 #include <hpvi/bound/coulomb_bound.h>
 #include <hpvi/bound/coulomb_coupling.h>
 #include <hpvi/bound/nodal_displacement.h>
+#include <hpvi/bound/pressed_face.h>
 
 #include <boost/math/tools/minima.hpp>
 
@@ -57,8 +58,11 @@ std::optional<Solution<2>> under_admissible_limit(const Solution<2> &solution,
     {
       knows_pressure = true;
       // The spaces, which outlive this, have the face.
-      limits[k] = [&face = solution.spaces->contact_space.faces()[k],
-                   pi = pressure.value(k)](const double s)
+      limits[k] =
+          [&face = solution.spaces->contact_space.faces()[k],
+           pi = faces[k].condition->is_unilateral()
+                    ? pressure.value(k)
+                    : discrete_traction(faces[k], solution, /*is_pressure=*/true)](const double s)
       { return face.condition->friction.limit(face.point(s), pi(s)); };
     }
   if (!knows_pressure)
@@ -245,11 +249,12 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
 {
   result.kind = BoundKind::estimate;
   for (const ContactFace<2> &face : solution.contact_space.faces())
-    if (face.condition->friction.form == FrictionForm::limited && face.condition->friction)
+    if (face.condition->friction && !face.condition->friction.is_proportional())
     {
       result.why = face.condition->friction.name() +
                    " has no bound of the error, whatever the coupling: its limit follows the "
-                   "pressure up to a bound alone";
+                   "pressure " +
+                   (face.condition->friction.by_pressure ? "by a curve" : "up to a bound alone");
       return;
     }
   if (!elements)
@@ -271,7 +276,8 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
         result.coupling <= largest_coupling ? bound(chi) : std::numeric_limits<double>::infinity();
     if (std::isfinite(total))
     {
-      result.total = total;
+      result.total = result.radius = total;
+      result.theta = 0;
       result.kind = BoundKind::coupling;
       return;
     }
@@ -290,7 +296,8 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
     result.coupling = known;
     return;
   }
-  result.total = total;
+  result.total = result.radius = total;
+  result.theta = 0;
   result.kind = BoundKind::zones;
   result.zones = zones.words;
   result.why.clear();

@@ -11,14 +11,15 @@ using namespace dealii;
 
 CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, const double h,
                        const Point<2> &centre)
-    : parts(parts), h(h), centre(centre), k(parts[0].element->table.k)
+    : parts(parts), h(h), centre(centre), k(parts[0].element->table.k),
+      n_motions(parts[0].element->n_conditions)
 {
   set_places(n_xi);
-  const unsigned int m = n_faces(), n_inner = n - m, n_conditions = 3 * (parts.size() - 1),
+  const unsigned int m = n_faces(), n_inner = n - m, n_conditions = n_motions * (parts.size() - 1),
                      size = n_inner + n_conditions;
   A.reinit(n, n);
   C.reinit(n_conditions, n);
-  N.resize(3 * m);
+  N.resize(n_motions * m);
   for (unsigned int box = 0; box < parts.size(); ++box)
     add_box(box);
   std::vector<double> matrix(size * size);
@@ -50,7 +51,7 @@ CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, 
   for (unsigned int j = 0; j < m; ++j)
     for (unsigned int i = 0; i < m; ++i)
       G.push_back((reduced(i, j) + reduced(j, i)) / 2);
-  for (unsigned int z = 0; z < 3; ++z) // length 1, as those of other elements
+  for (unsigned int z = 0; z < n_motions; ++z) // length 1, as those of other elements
   {
     double square = 0;
     for (unsigned int i = 0; i < m; ++i)
@@ -59,7 +60,7 @@ CutElement::CutElement(const std::vector<Part> &parts, const unsigned int n_xi, 
     for (unsigned int i = 0; i < m; ++i)
       N[z * m + i] /= norms[z];
     for (FullMatrix<double> &condition : conditions)
-      for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int c = 0; c < n_motions; ++c)
         condition(z, c) /= norms[z];
   }
 }
@@ -99,38 +100,41 @@ void CutElement::add_box(const unsigned int box)
   const Part &part = parts[box];
   const unsigned int m = n_faces();
   const TractionEnergy own = part.element->energy();
-  FullMatrix<double> half(m, n), of_motions(3, n);
+  FullMatrix<double> half(m, n), of_motions(n_motions, n);
   const double scale = part.h * part.h / (h * h);
   for (unsigned int i = 0; i < m; ++i)
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int l = 0; l < m; ++l)
         half(i, j) += scale * own.G.entries[std::size_t(l) * own.G.stride + i] * to[box](l, j);
   to[box].Tmmult(A, half, /*adding=*/true);
-  for (unsigned int z = 0; z < 3; ++z)
+  for (unsigned int z = 0; z < n_motions; ++z)
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int l = 0; l < m; ++l)
         of_motions(z, j) += own.N.entries[std::size_t(z) * own.N.stride + l] * to[box](l, j);
   if (box + 1 < parts.size())
-    C.fill(of_motions, 3 * box, 0);
+    C.fill(of_motions, n_motions * box, 0);
   // Forces and the moment about the middle of the cell, in units of its h.
-  const std::array<double, 3> &lengths = part.element->lengths;
+  const RowElement::Conditions &lengths = part.element->lengths;
   const double ratio = part.h / h;
   const Tensor<1, 2> arm = (part.centre - centre) / h;
-  FullMatrix<double> &of_cell = conditions.emplace_back(3, 3);
-  for (unsigned int c = 0; c < 2; ++c)
+  FullMatrix<double> &of_cell = conditions.emplace_back(n_motions, n_motions);
+  for (unsigned int c = 0; c < std::min(2U, n_motions); ++c)
     of_cell(c, c) = ratio * lengths[c];
-  of_cell(2, 0) = -arm[1] * ratio * lengths[0];
-  of_cell(2, 1) = arm[0] * ratio * lengths[1];
-  of_cell(2, 2) = ratio * ratio * lengths[2];
-  for (unsigned int z = 0; z < 3; ++z)
-    for (unsigned int c = 0; c < 3; ++c)
+  if (n_motions == 3)
+  {
+    of_cell(2, 0) = -arm[1] * ratio * lengths[0];
+    of_cell(2, 1) = arm[0] * ratio * lengths[1];
+    of_cell(2, 2) = ratio * ratio * lengths[2];
+  }
+  for (unsigned int z = 0; z < n_motions; ++z)
+    for (unsigned int c = 0; c < n_motions; ++c)
       for (unsigned int i = 0; i < m; ++i)
         N[z * m + i] += of_cell(z, c) * of_motions(c, i);
 }
 
 TractionEnergy CutElement::energy() const
 {
-  return {k + 1, k + 1, RowElement::n_conditions, {G.data(), n_faces()}, {N.data(), n_faces()}};
+  return {k + 1, k + 1, n_motions, {G.data(), n_faces()}, {N.data(), n_faces()}};
 }
 
 /** All tractions where those on faces vanish. */
@@ -144,8 +148,8 @@ std::vector<double> CutElement::inner(const Data &data) const
     for (unsigned int i = 0; i < n_inner; ++i)
       for (unsigned int l = 0; l < m; ++l)
         x[i] -= scale * to[box](l, m + i) * data.gradients[box][l];
-    for (unsigned int c = 0; box + 1 < parts.size() && c < 3; ++c)
-      x[n_inner + 3 * box + c] = -data.defects[box][c];
+    for (unsigned int c = 0; box + 1 < parts.size() && c < n_motions; ++c)
+      x[n_inner + n_motions * box + c] = -data.defects[box][c];
   }
   factor->solve(x);
   std::copy(x.begin(), x.begin() + n_inner, result.begin() + m);
@@ -170,23 +174,23 @@ std::vector<double> CutElement::gradient(const Data &data) const
   return result;
 }
 
-std::array<double, 3> CutElement::of_cell(const unsigned int box,
-                                          const std::array<double, 3> &moments) const
+RowElement::Conditions CutElement::of_cell(const unsigned int box,
+                                           const RowElement::Conditions &moments) const
 {
-  std::array<double, 3> result{};
-  for (unsigned int z = 0; z < 3; ++z)
-    for (unsigned int c = 0; c < 3; ++c)
+  RowElement::Conditions result{};
+  for (unsigned int z = 0; z < n_motions; ++z)
+    for (unsigned int c = 0; c < n_motions; ++c)
       result[z] += conditions[box](z, c) * moments[c];
   return result;
 }
 
-std::array<double, 3> CutElement::defect(const Data &data) const
+RowElement::Conditions CutElement::defect(const Data &data) const
 {
-  std::array<double, 3> result{};
+  RowElement::Conditions result{};
   for (unsigned int box = 0; box < parts.size(); ++box)
   {
-    const std::array<double, 3> own = of_cell(box, data.defects[box]);
-    for (unsigned int z = 0; z < 3; ++z)
+    const RowElement::Conditions own = of_cell(box, data.defects[box]);
+    for (unsigned int z = 0; z < n_motions; ++z)
       result[z] += own[z];
   }
   return result;

@@ -19,15 +19,21 @@ using namespace dealii;
 
 namespace
 {
-/** |G - Pi G| on an edge, in the components that are prescribed. */
-double missed_traction(const EquilibratedStress &stress, const unsigned int index)
+/** |G - Pi G| on an edge, in the components that are prescribed; of a cell on the axis over the root of 2 pi x. */
+double missed_traction(const Solution<2> &solution, const EquilibratedStress &stress,
+                       const unsigned int index)
 {
   const StressEdge &edge = stress.patches().edges()[index];
+  const auto &cell = stress.patches().cells()[edge.sides[0].cell].iterator;
+  const CellMap<2> map = map_of<2>(cell);
+  const bool is_on_axis = CellConstants(map).is_on_axis(solution.scene.material_of(cell));
   double sum = 0;
   for (const auto &[s, weight] : stress.prescribed().points(index))
   {
     const Tensor<1, 2> exact = stress.prescribed().value(index, s);
-    const double length = edge.length / stress.prescribed().stretch(edge, s);
+    double length = edge.length / stress.prescribed().stretch(edge, s);
+    if (is_on_axis)
+      length /= full_turn(map.point(point_on_face<2>(edge.sides[0].face, Point<1>(s))));
     for (unsigned int c = 0; c < 2; ++c)
       if (!edge.components[c].is_unknown)
       {
@@ -221,6 +227,21 @@ void DataError::add_initial_strain(const Solution<2> &solution, const Equilibrat
   missed_work += missed * norm;
 }
 
+namespace
+{
+/** `C |missed|` of a traction on an edge, C that of its trace. */
+double oscillation_of(const Solution<2> &solution, const EquilibratedStress &stress,
+                      const StressEdge::Side &side, const double missed)
+{
+  const auto &cell = stress.patches().cells()[side.cell].iterator;
+  const CellConstants shape(map_of<2>(cell));
+  const Material &material = solution.scene.material_of(cell);
+  return missed == 0.                 ? 0.
+         : shape.is_on_axis(material) ? shape.trace_on_axis(side.face) * missed
+                                      : shape.trace(side.face) * shape.korn() * missed;
+}
+} // namespace
+
 DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stress,
                      const JointLift *const joints)
     : oscillation(stress.squares.size()), lifts(oscillation.size()),
@@ -242,11 +263,10 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     if (condition.has_traction() || condition.friction || condition.spring || edge.is_given)
       for (const StressEdge::Side &side : edge.sides) // friction between two bodies acts on both
         oscillation[side.cell] +=
-            CellConstants(map_of<2>(patches.cells()[side.cell].iterator)).trace(side.face) *
-            missed_traction(stress, e);
+            oscillation_of(solution, stress, side, missed_traction(solution, stress, e));
     if (stress.has_rows())
-      oscillation[cell] += CellConstants(map_of<2>(patches.cells()[cell].iterator)).trace(face) *
-                           stress.missed_traction(cell, face);
+      oscillation[cell] +=
+          oscillation_of(solution, stress, edge.sides[0], stress.missed_traction(cell, face));
     if (condition.has_displacement() || has_gap(solution, edge))
     {
       const Missed missed = missed_displacement(solution, stress, e);
@@ -254,10 +274,11 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
       const auto &iterator = patches.cells()[cell].iterator;
       const CellMap<2> map = map_of<2>(iterator);
       for (const auto &part : {missed.value, missed.oscillation()})
-        lifts[cell] += std::sqrt(std::max(
-            0., lift_energy(map, face, part, HookesLaw<2>(solution.scene.material_of(iterator)),
-                            solution.tables) +
-                    spring_energy(condition, map, face, edge_points(part, 6, solution.tables))));
+        lifts[cell] += std::sqrt(
+            std::max(0., lift_energy(map, face, part, solution.scene.material_of(iterator),
+                                     solution.tables) +
+                             spring_energy(solution.scene, condition, map, face,
+                                           edge_points(part, 6, solution.tables))));
       lift_work += boundary_work(solution, stress, e, missed);
       const double most = std::max(missed.missed_data[0], missed.missed_data[1]);
       missed_work += most * absolute_traction(stress, e);
@@ -281,9 +302,11 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
       continue;
     const auto &iterator = patches.cells()[cell].iterator;
     const CellConstants shape(map_of<2>(iterator));
-    oscillation[cell] += shape.poincare() * missed;
-    oscillation[cell] *=
-        shape.korn() / std::sqrt(solution.scene.material_of(iterator).coercivity(2));
+    const Material &material = solution.scene.material_of(iterator);
+    if (missed > 0.)
+      oscillation[cell] += shape.poincare() * shape.korn() * missed;
+    oscillation[cell] /=
+        std::sqrt(shape.is_on_axis(material) ? material.coercivity(3) : shape.coercivity(material));
   }
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
     oscillation[cell] += stress.antisymmetry[cell];

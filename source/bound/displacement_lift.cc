@@ -41,12 +41,14 @@ Vector<double> integral(const Vector<double> &f)
   return result;
 }
 
-/** |delta(s) (1 - n)^q|_a^2 on a cell that is no parallelogram, least over some q. */
+/** |delta(s) (1 - n)^q|_a^2 on a cell that is no parallelogram, or around an axis, least over some q. */
 double distorted_energy(const CellMap<2> &map, const unsigned int face,
-                        const std::vector<EdgePoint> &delta, const HookesLaw<2> &law,
+                        const std::vector<EdgePoint> &delta, const Material &material,
                         const ShapeTables<2> &tables)
 {
   const unsigned int along = face < 2 ? 1 : 0;
+  const HookesLaw<2> law(material);
+  const bool is_axisymmetric = material.plane == PlaneModel::axisymmetric;
   const QGauss<1> &across = tables.gauss(64);
   std::array<double, std::size(powers)> energies{};
   for (const auto &[s, of_s, value, by_s] : delta)
@@ -57,7 +59,9 @@ double distorted_energy(const CellMap<2> &map, const unsigned int face,
       xi[along] = s;
       xi[1 - along] = face % 2 ? left : 1 - left;
       const Tensor<2, 2> J = map.jacobian(xi), inverse = invert(J);
-      const double weight = of_s * across.weight(b) * determinant(J);
+      const Point<2> x = map.point(xi);
+      const double weight =
+          of_s * across.weight(b) * determinant(J) * (is_axisymmetric ? full_turn(x) : 1.);
       for (unsigned int k = 0; k < energies.size(); ++k)
       {
         const double power = std::pow(left, powers[k] - 1.);
@@ -67,7 +71,8 @@ double distorted_energy(const CellMap<2> &map, const unsigned int face,
           reference[c][along] = by_s[c] * power * left;
           reference[c][1 - along] = (face % 2 ? 1. : -1.) * powers[k] * value[c] * power;
         }
-        energies[k] += weight * law.energy_product(reference * inverse);
+        const double hoop = is_axisymmetric ? value[0] * power * left / x[0] : 0.;
+        energies[k] += weight * law.energy_product(reference * inverse, hoop);
       }
     }
   return *std::min_element(energies.begin(), energies.end());
@@ -225,6 +230,11 @@ double solenoidal_energy(const CellMap<2> &map, const unsigned int face,
   }
   return best;
 }
+/** Is the energy one of products of functions along and across the cell? */
+bool is_plane_product(const CellMap<2> &map, const Material &material)
+{
+  return map.is_affine() && material.plane != PlaneModel::axisymmetric;
+}
 } // namespace
 
 std::vector<EdgePoint> edge_points(const std::array<Vector<double>, 2> &delta,
@@ -250,23 +260,25 @@ std::vector<EdgePoint> edge_points(const std::array<Vector<double>, 2> &delta,
 }
 
 double lift_energy(const CellMap<2> &map, const unsigned int face,
-                   const std::array<Vector<double>, 2> &delta, const HookesLaw<2> &law,
+                   const std::array<Vector<double>, 2> &delta, const Material &material,
                    const ShapeTables<2> &tables)
 {
   if (delta[0].all_zero() && delta[1].all_zero())
     return 0.;
-  const double energy = lift_energy(map, face, edge_points(delta, 2, tables), law, tables);
-  return map.is_affine() ? std::min(energy, solenoidal_energy(map, face, delta, law)) : energy;
+  const double energy = lift_energy(map, face, edge_points(delta, 2, tables), material, tables);
+  return is_plane_product(map, material)
+             ? std::min(energy, solenoidal_energy(map, face, delta, HookesLaw<2>(material)))
+             : energy;
 }
 
 double lift_energy(const CellMap<2> &map, const unsigned int face,
-                   const std::vector<EdgePoint> &delta, const HookesLaw<2> &law,
+                   const std::vector<EdgePoint> &delta, const Material &material,
                    const ShapeTables<2> &tables)
 {
-  if (!map.is_affine())
-    return distorted_energy(map, face, delta, law, tables);
+  if (!is_plane_product(map, material))
+    return distorted_energy(map, face, delta, material, tables);
   // Of int b b, int b' b' and int b b' the energy is a linear function.
-  const ProductEnergies parts(map, face, delta, law);
+  const ProductEnergies parts(map, face, delta, HookesLaw<2>(material));
   double best = std::numeric_limits<double>::infinity();
   for (unsigned int q = 1; q <= 60; ++q)
     best = std::min(best, parts.along / (2 * q + 1) + parts.across * q * q / (2 * q - 1) -
@@ -274,8 +286,9 @@ double lift_energy(const CellMap<2> &map, const unsigned int face,
   return best;
 }
 
-double spring_energy(const BoundaryCondition<2> &condition, const CellMap<2> &map,
-                     const unsigned int face, const std::vector<EdgePoint> &delta)
+double spring_energy(const Scene<2> &scene, const BoundaryCondition<2> &condition,
+                     const CellMap<2> &map, const unsigned int face,
+                     const std::vector<EdgePoint> &delta)
 {
   double sum = 0;
   for (const EdgePoint &at : delta)
@@ -283,7 +296,7 @@ double spring_energy(const BoundaryCondition<2> &condition, const CellMap<2> &ma
     {
       const Point<2> xi = point_on_face<2>(face, Point<1>(at.s));
       sum +=
-          at.weight * map.face_measure(face, xi) *
+          at.weight * map.face_measure(face, xi) * scene.circumference(map.point(xi)) *
           (at.value * (condition.spring.stiffness(map.point(xi), map.normal(face, xi)) * at.value));
     }
   return sum;

@@ -104,6 +104,11 @@ Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, const unsigned
   result.exact_solution.reset();
   result.reference_solution.clear();
   result.initial_strains.clear();
+  for (Pretension<2> &cut : result.pretensions)
+  {
+    cut.force = 0;
+    cut.is_fixed = true;
+  }
   result.body_force = {};
   result.body_force_of_material.clear();
   result.probes.clear();

@@ -81,7 +81,9 @@ EquilibratedStress::EquilibratedStress(const Solution<2> &solution, const Parts 
                                        const JointTractions *const joints)
     : squares(solution.displacement_space.degrees().size()), antisymmetry(squares.size()),
       cache(cache), joints(joints),
-      vertex_patches(solution, joints || has_distorted_cells(solution), joints),
+      vertex_patches(solution,
+                     joints || solution.scene.is_axisymmetric() || has_distorted_cells(solution),
+                     joints),
       boundary(solution, vertex_patches, friction, pressure, joints)
 {
   if (vertex_patches.has_rows)

@@ -165,13 +165,25 @@ void set_no_energy(ErrorBound &result)
 //
 // Each assumption of the theorem is checked on the way. If one fails there is no bound, and a
 // sentence that says why, with the number: a bound that is nearly guaranteed is not guaranteed.
-/** Why the patch of cells about a vertex is out of balance. @p is_moved: contact is not that of the discrete solution. */
+/** Is friction at the points of its multiplier more or less than along the edge between them, where all of it slips? */
+bool has_curved_limit(const Solution<2> &solution)
+{
+  const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
+  return std::any_of(faces.begin(), faces.end(),
+                     [](const ContactFace<2> &face)
+                     {
+                       const FrictionLaw<2> &law = face.condition->friction;
+                       return law && law.knows_pressure() && !law.is_proportional();
+                     });
+}
+
+/** Why the patch of cells about a vertex is out of balance. @p is_moved: contact is not that of the discrete solution, by more than round-off. */
 std::string cause_of_imbalance(const EquilibratedStress &stress, const bool is_moved,
                                const Point<2> &vertex, const double size)
 {
   if (stress.is_worst_in_corners)
     return "two edges that meet there ask for different shears";
-  if (is_moved && stress.defect > 1e-6)
+  if (is_moved)
     return "friction and pressure that keep their bounds everywhere do not balance the loads, and "
            "no support carries the rest";
   double smallest = size, longest = 1;
@@ -195,7 +207,9 @@ std::string flaw_of_balance(const Solution<2> &solution, const EquilibratedStres
   const Point<2> &vertex = solution.spaces->mesh->get_vertices()[stress.worst_vertex];
   return "patches of cells are out of balance by up to " + text(stress.defect, 2) +
          " of their stresses, at " + to_string(vertex) + ": " +
-         cause_of_imbalance(stress, is_moved, vertex, solution.scene.geometry.diameter());
+         cause_of_imbalance(stress,
+                            is_moved && (stress.defect > 1e-6 || has_curved_limit(solution)),
+                            vertex, solution.scene.geometry.diameter());
 }
 
 /** Why U = u_N - w + d is not admissible. */
@@ -225,14 +239,17 @@ std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &press
     if (const std::string cut = cut_inside_cell(solution); !cut.empty())
       return cut;
     for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
-      if (!CellConstants(map_of<2>(cell)).is_star_shaped())
+      if (!CellConstants(map_of<2>(cell)).is_star_shaped(solution.scene.material_of(cell)))
         return "the cell at " + to_string(cell->center()) +
-               " is not star-shaped about its middle, and nothing is known of its rotations";
+               " is not star-shaped about its middle, or touches the axis by a vertex alone, and "
+               "nothing is known of its rotations";
   }
   if (solution.scene.has_plates() && has_long_cells(solution))
     return "cells are more than four times as long as wide, and a stress that is made in all of "
            "them at "
            "once knows no rigid plate";
+  if (!(sum(data.oscillation) < std::numeric_limits<double>::infinity()))
+    return "loads or friction in cells on the axis are no polynomials of their degree";
   const std::string &unit = solution.scene.length_unit;
   if (!(data.missed_data <= 1e-8 * largest))
     return "a prescribed displacement or gap is not smooth along the edge at " +
@@ -375,7 +392,8 @@ ErrorBounds::nearest_stress(const Solution<2> &solution, const Discretisation<2>
 {
   const std::vector<unsigned int> &degrees = solution.displacement_space.degrees();
   const bool may_lock = solution.scene.is_nearly_incompressible() &&
-                        !solution.scene.has_coulomb_friction() && !has_distorted_cells(solution);
+                        !solution.scene.has_coulomb_friction() &&
+                        !solution.scene.is_axisymmetric() && !has_distorted_cells(solution);
   const auto n_high = std::count_if(degrees.begin(), degrees.end(),
                                     [](const unsigned int degree) { return degree >= 4; });
   std::unique_ptr<const AdmissibleStress> own;
@@ -474,8 +492,11 @@ try
   {
     result.kind = BoundKind::estimate;
     if (joints)
-      result.why = "the coupling of friction and pressure is not known where contact is along a "
-                   "curve or a direction, or meshes of bodies do not match";
+      result.why =
+          solution.scene.has_unilateral_contact()
+              ? "the coupling of friction and pressure is not known where contact is along a "
+                "curve or a direction or around an axis, or meshes of bodies do not match"
+              : "the coupling of friction and pressure is not known where contact is bilateral";
     else
     {
       if (!coulomb)

@@ -399,10 +399,9 @@ void JointLift::add_rest(const Mover &mover)
   const CellMap<2> map = map_of<2>(iterator);
   const BoundaryCondition<2> &condition =
       solution.scene.boundaries[iterator->face(mover.edge->face_no)->boundary_id()];
-  const double energy =
-      lift_energy(map, mover.edge->face_no, points,
-                  HookesLaw<2>(solution.scene.material_of(iterator)), solution.tables) +
-      spring_energy(condition, map, mover.edge->face_no, points);
+  const double energy = lift_energy(map, mover.edge->face_no, points,
+                                    solution.scene.material_of(iterator), solution.tables) +
+                        spring_energy(solution.scene, condition, map, mover.edge->face_no, points);
   cells[iterator->active_cell_index()] += std::sqrt(std::max(0., energy));
 }
 

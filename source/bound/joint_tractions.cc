@@ -4,6 +4,7 @@
 // given there: tractions that the laws admit, polynomials on each edge of the slave, pieces of polynomials on those of the master. A
 // displacement x makes up for what they miss of z_N, so that all patches of both bodies are in balance (doc/bound.md).
 #include <hpvi/base/tolerances.h>
+#include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/joint_tractions.h>
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/pressed_face.h>
@@ -160,18 +161,22 @@ SymmetricTensor<2, 2> stress_at(const Solution<2> &solution,
       tabulate<2>(solution.displacement_space.degrees()[index], {reference}, {1.}, false);
   const std::vector<double> slopes = evaluate(table.derivatives, solution.coefficients(index));
   const HookesLaw<2> law(solution.scene.material_of(cell));
+  const double hoop =
+      solution.scene.is_axisymmetric()
+          ? evaluate(table.values, solution.coefficients(index))[0] / map.point(reference)[0]
+          : 0.;
   SymmetricTensor<2, 2> result = law.stress(
-      physical_gradient<2>(slopes, 0, table.derivatives.m(), invert(map.jacobian(reference))));
+      physical_gradient<2>(slopes, 0, table.derivatives.m(), invert(map.jacobian(reference))),
+      hoop);
   if (solution.scene.has_initial_strain())
     result -= law.stress(solution.scene.initial_strain_in(cell, map.point(reference)));
   return result;
 }
 
-/** Of two bodies that must not part there; a rigid foundation has no multiplier then. */
+/** Must what touches not part there, and has that a multiplier? */
 bool is_joint(const ContactFace<2> &face)
 {
-  return !face.segments.empty() &&
-         (face.condition->is_tied() || face.condition->contact == Contact::bilateral);
+  return !face.condition->is_unilateral() && !face.pressures.empty();
 }
 } // namespace
 
@@ -319,8 +324,9 @@ std::vector<std::pair<double, double>> JointTractions::points(const JointPiece &
       cuts.push_back(at);
   std::sort(cuts.begin(), cuts.end());
   const bool is_polynomial = !varies(face.friction) && !face.map.is_curved() && !piece.drawn;
-  const QGauss<1> &gauss = solution.tables.gauss((degree(piece.face) + more) / 2 + 1 +
-                                                 (is_polynomial ? 0 : n_of_curve / 2));
+  const QGauss<1> &gauss =
+      solution.tables.gauss((degree(piece.face) + more + face.is_axisymmetric) / 2 + 1 +
+                            (is_polynomial ? 0 : n_of_curve / 2));
   std::vector<std::pair<double, double>> result;
   for (unsigned int k = 0; k + 1 < cuts.size(); ++k)
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -374,7 +380,8 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k, const
 double JointTractions::end_of_contact(const unsigned int k) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[k];
-  if (!face.condition->is_unilateral() || face.pressures.size() < 2)
+  if (!face.condition->is_unilateral() || face.pressures.size() < 2 ||
+      (face.is_axisymmetric && axis_face(face.map)))
     return -1.;
   std::vector<unsigned int> changes;
   for (unsigned int i = 0; i + 1 < face.pressures.size(); ++i)

@@ -10,7 +10,6 @@
 // the discrete problem: a corner at which a held and a rubbing boundary meet asks for a $w$ that falls along a shorter
 // edge than $V_N$ has.
 #include <hpvi/bound/resultant_intervals.h>
-#include <hpvi/bound/stress_work.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,11 +54,21 @@ std::string ResultantIntervals::flaws() const
   };
   for (const OfBoundary &boundary : boundaries)
     for (const Goal &goal : boundary.goals)
-      if (!goal.test.flaw().empty())
-        add(goal.test.flaw());
+      if (const std::string flaw = flaw_of(goal); !flaw.empty())
+        add(flaw);
       else if (goal.is_pressed)
         add("the pressure on " + scene.boundaries[boundary.boundary].name +
             " in a corner that is held, which has no upper bound");
+  return result;
+}
+
+/** Why there is none, in words. */
+std::string ResultantIntervals::flaw_of(const Goal &goal)
+{
+  std::string result = goal.test.flaw();
+  for (const Lift &lift : goal.lifts)
+    if (result.empty())
+      result = lift.test.flaw();
   return result;
 }
 
@@ -88,6 +97,9 @@ void ResultantIntervals::find_goals(const std::vector<Resultant<2>> &forces)
          {is_contact ? BoundaryMotion::normal : BoundaryMotion::x,
           is_contact ? BoundaryMotion::tangential : BoundaryMotion::y, BoundaryMotion::moment})
     {
+      if (scene.is_axisymmetric() &&
+          (motion == BoundaryMotion::x || motion == BoundaryMotion::moment))
+        continue; // what is radial balances itself, and turns nothing
       own.goals.push_back({motion, TestMotion(scene, sides, row.boundary, motion), {}});
       for (const TestMotion::Fall &fall : own.goals.back().test.falls())
         if (std::none_of(graded.begin(), graded.end(),
@@ -116,9 +128,19 @@ void ResultantIntervals::solve(const Solution<2> &solution)
       goal.w = space->solve(goal.test);
       goal.norm = space->norm(goal.w);
       goal.friction = 0;
+      goal.lifts.clear();
       const std::vector<double> l = space->lengths(goal.test);
       for (unsigned int k = 0; k < l.size(); ++k)
-        goal.friction += goal.test.falls()[k].work(scene, l[k]);
+      {
+        const TestMotion::Fall &fall = goal.test.falls()[k];
+        goal.friction += fall.work(scene, l[k]);
+        if (fall.kind != TractionKind::friction ||
+            !scene.boundaries[fall.boundary].friction.knows_pressure())
+          continue;
+        TestMotion X = goal.test.pressing(fall, l[k]);
+        const double norm = X.flaw().empty() ? space->norm(space->solve(X)) : 0.;
+        goal.lifts.push_back({std::move(X), norm});
+      }
     }
 }
 
@@ -129,9 +151,14 @@ double ResultantIntervals::missing_levels(const Goal &goal, const unsigned int f
 {
   const TestMotion::Fall &from = goal.test.falls()[fall];
   if (from.kind == TractionKind::friction)
-    return goal.friction > largest_share * bound.total * goal.norm
-               ? std::ceil(std::log2(goal.friction / (aim * bound.total * goal.norm)))
+  {
+    const double work = goal.friction + goal.pressed;
+    return work > largest_share * bound.total * goal.norm
+               ? std::ceil(std::log2(work / (aim * bound.total * goal.norm)))
                : 0.;
+  }
+  if (bound.kind != BoundKind::energy)
+    return 0.;
   const double open = OpenContact(solution, bound, from.boundary, from.from).length();
   return open > 0 && length > open ? std::ceil(std::log2(length / open)) : 0.;
 }
@@ -140,11 +167,12 @@ double ResultantIntervals::missing_levels(const Goal &goal, const unsigned int f
 bool ResultantIntervals::grade(const Solution<2> &solution, const ErrorBound &bound)
 {
   std::vector<GradedPoint> next = graded;
-  for (const OfBoundary &boundary : boundaries)
-    for (const Goal &goal : boundary.goals)
+  for (OfBoundary &boundary : boundaries)
+    for (Goal &goal : boundary.goals)
     {
       if (!is_solved(goal))
         continue;
+      measure_lifts(goal, solution, bound);
       const std::vector<double> l = space->lengths(goal.test);
       for (unsigned int k = 0; k < l.size(); ++k)
         for (unsigned int point = 0; point < graded.size(); ++point)
@@ -184,30 +212,45 @@ void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &
       goal.rounding = 1e-14 * absolute +
                       loads.difference(Datum::load) * loads.sum().absolute * goal.test.largest() +
                       space->strain_error() * goal.norm;
-      measure_tractions(goal, solution, bound);
+      const TractionWork work = work_of(goal.test, solution, bound);
+      goal.of_stress = work.sum;
+      goal.defect = work.defect(bound.imbalance);
+      measure_lifts(goal, solution, bound);
       measure_pressure(goal, solution, bound);
     }
 }
 
 // The stress of the bound says the force as well, by its tractions. w is known along the boundary, and linear between the ends of
 // edges and falls.
-void ResultantIntervals::measure_tractions(Goal &goal, const Solution<2> &solution,
-                                           const ErrorBound &bound) const
+TractionWork ResultantIntervals::work_of(const TestMotion &motion, const Solution<2> &solution,
+                                         const ErrorBound &bound) const
 {
-  const std::vector<double> l = space->lengths(goal.test);
+  const std::vector<double> l = space->lengths(motion);
   TractionWork work;
   for (const EdgeTraction &edge : bound.tractions)
-    if (const auto cuts = goal.test.kinks(edge.boundary, edge.begin, edge.end, l); !cuts.empty())
+    if (const auto cuts = motion.kinks(edge.boundary, edge.begin, edge.end, l); !cuts.empty())
       work.add(edge, solution, cuts, edge.n_coefficients() / 2 + 1,
                [&](const double, const Point<2> &x)
                {
                  Tensor<1, 2> w;
-                 for (const PointCondition<2> &part : goal.test.conditions(edge.boundary, x, l))
+                 for (const PointCondition<2> &part : motion.conditions(edge.boundary, x, l))
                    w += part.value * part.direction;
                  return w;
                });
-  goal.of_stress = work.sum;
-  goal.defect = work.defect(bound.imbalance);
+  return work;
+}
+
+// The pressure of the solution is that of s but for what any displacement X sees of their distance.
+void ResultantIntervals::measure_lifts(Goal &goal, const Solution<2> &solution,
+                                       const ErrorBound &bound) const
+{
+  goal.pressed = goal.lifted = 0;
+  for (const Lift &lift : goal.lifts)
+  {
+    const TractionWork work = work_of(lift.test, solution, bound);
+    goal.pressed += std::abs(work.sum) + work.defect(bound.imbalance);
+    goal.lifted += (bound.total + bound.stress + bound.oscillation) * lift.norm;
+  }
 }
 
 void ResultantIntervals::measure_pressure(Goal &goal, const Solution<2> &solution,
@@ -221,6 +264,11 @@ void ResultantIntervals::measure_pressure(Goal &goal, const Solution<2> &solutio
     const TestMotion::Fall &fall = goal.test.falls()[k];
     if (fall.kind != TractionKind::pressure)
       continue;
+    if (bound.kind != BoundKind::energy) // what follows needs the least one
+    {
+      goal.is_pressed = true;
+      return;
+    }
     const OpenContact open(solution, bound, fall.boundary, fall.from);
     goal.is_pressed = goal.is_pressed || !(l[k] <= open.length() * (1 + 1e-9));
     if (!goal.is_pressed)
@@ -242,12 +290,13 @@ ResultantIntervals::interval(const OfBoundary &boundary,
     const Goal *const goal = boundary.find(motion);
     if (std::abs(factor) < 1e-14)
       continue;
-    if (!goal || !goal->test.flaw().empty() || goal->is_pressed)
+    if (!goal || !flaw_of(*goal).empty() || goal->is_pressed)
       return std::nullopt;
     if (goal->w.size() == 0)
       continue; // no traction
     result.centre += factor * goal->centre;
-    result.half_width += std::abs(factor) * (goal->friction + goal->pressure + goal->rounding);
+    result.half_width += std::abs(factor) * (goal->friction + goal->pressed + goal->lifted +
+                                             goal->pressure + goal->rounding);
     of_stress += factor * goal->of_stress;
     defect += std::abs(factor) * goal->defect;
     if (w.size() == 0)
@@ -269,10 +318,12 @@ void ResultantIntervals::set(const OfBoundary &boundary, const ErrorBound &bound
   using Motion = BoundaryMotion;
   const auto of = [&](const std::vector<std::pair<Motion, double>> &sum)
   { return interval(boundary, sum, bound); };
-  row.moment[0].interval = of({{Motion::moment, 1.}});
+  if (!scene.is_axisymmetric())
+    row.moment[0].interval = of({{Motion::moment, 1.}});
   if (row.kind != ForceKind::contact)
   {
-    row.force[0].interval = of({{Motion::x, 1.}});
+    if (!scene.is_axisymmetric())
+      row.force[0].interval = of({{Motion::x, 1.}});
     row.force[1].interval = of({{Motion::y, 1.}});
     return;
   }
@@ -283,7 +334,8 @@ void ResultantIntervals::set(const OfBoundary &boundary, const ErrorBound &bound
     return;
   const Tensor<1, 2> n =
       scene.boundaries[boundary.boundary].held_direction(side.normal(side.point(0, 0.5)));
-  row.force[0].interval = of({{Motion::normal, n[0]}, {Motion::tangential, -n[1]}});
+  if (!scene.is_axisymmetric())
+    row.force[0].interval = of({{Motion::normal, n[0]}, {Motion::tangential, -n[1]}});
   row.force[1].interval = of({{Motion::normal, n[1]}, {Motion::tangential, n[0]}});
 }
 
@@ -324,7 +376,8 @@ std::string ResultantIntervals::set(const Solution<2> &solution, const ErrorBoun
     find_goals(forces);
   if (boundaries.empty())
     return {};
-  if (!space)
+  if (!space ||
+      !scene.pretensions.empty()) // loads of a bolt that is tightened are those of the step
     solve(solution);
   while (grade(solution, bound))
     solve(solution);

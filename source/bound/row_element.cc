@@ -6,6 +6,7 @@
 #include <hpvi/bound/corner_stress.h>
 #include <hpvi/bound/legendre.h>
 #include <hpvi/bound/row_element.h>
+#include <hpvi/scene/scene.h>
 
 #include <deal.II/base/polynomial.h>
 
@@ -88,10 +89,11 @@ void RowTable::set_products()
   const auto product = [this](const unsigned int x, const unsigned int l, const double factor) {
     return Product{x * (k + 1) + l, factor};
   };
-  const auto add = [this](const Product &xi, const Product &eta)
+  const auto add = [this](const Product &xi, const Product &eta, const Product &div = Product())
   {
     products[0].push_back(xi);
     products[1].push_back(eta);
+    products[divergence].push_back(div);
   };
   for (unsigned int i = 1; i <= k; ++i)
     for (unsigned int j = 1; j <= k; ++j)
@@ -100,13 +102,15 @@ void RowTable::set_products()
     for (unsigned int i = 0; i <= k; ++i)
     {
       const Product across = product(k + face % 2, i, 1.),
-                    along = i > 0 ? product(i - 1, 0, (face % 2 ? -0.5 : 0.5) * one) : Product();
-      face < 2 ? add(across, along) : add(along, across);
+                    along = i > 0 ? product(i - 1, 0, (face % 2 ? -0.5 : 0.5) * one) : Product(),
+                    div = i > 0 ? Product() : product(0, 0, (face % 2 ? 0.5 : -0.5) * one);
+      face < 2 ? add(across, along, div) : add(along, across, div);
     }
   for (unsigned int i = 0; i <= k; ++i)
     for (unsigned int j = 0; j <= k; ++j)
-      i > 0 ? add(product(i - 1, j, 1.), Product())
-            : add(Product(), j > 0 ? product(j - 1, 0, 1.) : Product());
+      i > 0   ? add(product(i - 1, j, 1.), Product(), product(i, j, 1.))
+      : j > 0 ? add(Product(), product(j - 1, 0, 1.), product(0, j, 1.))
+              : add(Product(), Product());
 }
 
 std::array<std::vector<double>, 2> RowTable::at(const Point<2> &reference) const
@@ -122,32 +126,58 @@ std::array<std::vector<double>, 2> RowTable::at(const Point<2> &reference) const
 }
 
 // @sect3{At points}
-RowValues::RowValues(const RowTable &table, const RowShape &shape)
-    : table(table), antisymmetry(std::sqrt(theta) * shape.antisymmetry), compliance()
+namespace
 {
-  const HookesLaw<2> law(*shape.law);
-  std::array<SymmetricTensor<2, 2>, 3> unit;
-  for (unsigned int a = 0; a < 3; ++a)
-    unit[a].access_raw_entry(a) = 1.;
-  std::vector<double> product(9);
-  for (unsigned int a = 0; a < 3; ++a)
-    for (unsigned int b = 0; b < 3; ++b)
-      product[3 * a + b] = law.complementary_product(unit[a], unit[b]);
-  require_regular(cholesky(3, product.data(), 3), cells);
-  for (unsigned int a = 0; a < 3; ++a)
-    for (unsigned int b = a; b < 3; ++b)
-      compliance[b][a] = product[3 * a + b];
+/** L of C^-1 = L L' in the components of a plane stress, and of one around the axis. */
+std::array<std::array<double, 4>, 4> compliance_of(const Material &material,
+                                                   const bool is_axisymmetric)
+{
+  const unsigned int n = is_axisymmetric ? 4 : 3;
+  std::array<SymmetricTensor<2, 3>, 4> unit;
+  unit[0][0][0] = unit[1][1][1] = unit[2][0][1] = unit[3][2][2] = 1.;
+  const auto in_plane = [](const SymmetricTensor<2, 3> &s)
+  {
+    SymmetricTensor<2, 2> result;
+    result[0][0] = s[0][0];
+    result[1][1] = s[1][1];
+    result[0][1] = s[0][1];
+    return result;
+  };
+  const HookesLaw<2> law(material);
+  std::vector<double> product(n * n);
+  for (unsigned int a = 0; a < n; ++a)
+    for (unsigned int b = 0; b < n; ++b)
+      product[n * a + b] = is_axisymmetric
+                               ? HookesLaw<3>(material).complementary_product(unit[a], unit[b])
+                               : law.complementary_product(in_plane(unit[a]), in_plane(unit[b]));
+  require_regular(cholesky(n, product.data(), n), cells);
+  std::array<std::array<double, 4>, 4> result{};
+  for (unsigned int a = 0; a < n; ++a)
+    for (unsigned int b = a; b < n; ++b)
+      result[b][a] = product[n * a + b];
+  return result;
+}
+} // namespace
+
+RowValues::RowValues(const RowTable &table, const RowShape &shape)
+    : table(table), is_axisymmetric(shape.is_axisymmetric()), n_parts(is_axisymmetric ? 5 : 4),
+      n_weighted(n_parts - (shape.face_on_axis() ? 0 : 1)),
+      antisymmetry(std::sqrt(theta) * shape.antisymmetry),
+      compliance(compliance_of(*shape.law, is_axisymmetric))
+{
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
     const Tensor<2, 2> J = shape.map.jacobian(table.points[q]) / (2 * shape.h);
     require_regular(determinant(J) > 0, cells);
+    const Point<2> x = shape.map.point(table.points[q]);
+    turns.push_back(is_axisymmetric ? full_turn(x) : 1.);
     roots.push_back(std::sqrt(table.weights[q] * determinant(J)));
-    auto both = frames_at(J);
+    auto both = frames_at(J, x[0] / shape.h);
     for (unsigned int row = 0; row < 2; ++row)
     {
-      for (auto &part : both[row])
-        for (double &value : part)
-          value *= roots[q];
+      for (unsigned int part = 0; part < n_parts; ++part)
+        for (double &value : both[row][part])
+          value *= roots[q] / (part < n_weighted ? std::sqrt(turns[q]) : 1.);
       frames[row].push_back(both[row]);
     }
   }
@@ -155,25 +185,34 @@ RowValues::RowValues(const RowTable &table, const RowShape &shape)
     set_corners(shape);
 }
 
-/** Of the Jacobian in units of h: what unit components of either row are in energy per area. */
-std::array<RowValues::Frame, 2> RowValues::frames_at(const Tensor<2, 2> &J) const
+unsigned int RowValues::n_components(const unsigned int row) const
+{
+  return is_axisymmetric && row == 0 ? 3 : 2;
+}
+
+/** Of the Jacobian in units of h: what unit components of either row, and its divergence, are in energy per area. */
+std::array<RowValues::Frame, 2> RowValues::frames_at(const Tensor<2, 2> &J,
+                                                     const double radius) const
 {
   const double det = determinant(J);
-  std::array<Frame, 2> result;
+  std::array<Frame, 2> result{};
   for (unsigned int row = 0; row < 2; ++row)
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < n_components(row); ++d)
     {
-      const std::array<double, 2> s{{J[0][d] / det, J[1][d] / det}}; // (s_row,1, s_row,2)
-      const std::array<double, 3> symmetric = row == 0
-                                                  ? std::array<double, 3>{{s[0], 0., s[1] / 2}}
-                                                  : std::array<double, 3>{{0., s[1], s[0] / 2}};
-      for (unsigned int a = 0; a < 3; ++a)
+      std::array<double, 2> s{}; // (s_row,1, s_row,2)
+      std::array<double, 4> symmetric{};
+      if (d == RowTable::divergence)
+        symmetric[3] = radius / det;
+      else
       {
-        result[row][a][d] = 0;
-        for (unsigned int b = a; b < 3; ++b)
-          result[row][a][d] += compliance[b][a] * symmetric[b];
+        s = {{J[0][d] / det, J[1][d] / det}};
+        symmetric[row] = s[row];
+        symmetric[2] = s[1 - row] / 2;
       }
-      result[row][3][d] = antisymmetry * (row == 0 ? s[1] : -s[0]);
+      for (unsigned int a = 0; a + 1 < n_parts; ++a)
+        for (unsigned int b = a; b + 1 < n_parts; ++b)
+          result[row][a][d] += compliance[b][a] * symmetric[b];
+      result[row][n_parts - 1][d] = antisymmetry * (row == 0 ? s[1] : -s[0]);
     }
   return result;
 }
@@ -189,15 +228,17 @@ void RowValues::set_corners(const RowShape &shape)
                      n_points = table.points.size();
   corner_moments.assign(n_corners, std::vector<double>(n_parts * n_points));
   corner_products.fill(std::vector<double>(n_corners * n_corners));
-  std::vector<std::array<double, n_parts>> at_point(n_corners);
+  std::vector<std::array<double, 5>> at_point(n_corners);
   std::vector<Tensor<2, 2>> B;
   for (const unsigned int corner : table.corners)
     B.push_back(corner_frame(shape, corner));
   for (unsigned int q = 0; q < table.at_corners.size(); ++q)
   {
     const Tensor<2, 2> J = shape.map.jacobian(table.at_corners.point(q)) / (2 * shape.h);
-    const double weight = 4 * table.at_corners.weight(q) * determinant(J);
-    const std::array<Frame, 2> both = frames_at(J);
+    const double weight = 4 * table.at_corners.weight(q) * determinant(J),
+                 turn =
+                     is_axisymmetric ? full_turn(shape.map.point(table.at_corners.point(q))) : 1.;
+    const std::array<Frame, 2> both = frames_at(J, 0.);
     for (unsigned int c = 0; c < n_corners; ++c)
     {
       const auto [xx, yy, xy] = table.corner_stresses[c][q];
@@ -207,6 +248,8 @@ void RowValues::set_corners(const RowShape &shape)
         for (unsigned int row = 0; row < 2; ++row)
           at_point[c][part] += both[row][part][0] * (B[c][row][0] * xx + B[c][row][1] * xy) +
                                both[row][part][1] * (B[c][row][0] * xy + B[c][row][1] * yy);
+        if (part < n_weighted)
+          at_point[c][part] /= std::sqrt(turn);
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
             corner_moments[c][part * n_points + b * n + a] += weight * at_point[c][part] *
@@ -230,18 +273,20 @@ void RowValues::set_corners(const RowShape &shape)
 std::vector<double> RowValues::at_points(const double *const coefficients,
                                          const unsigned int d) const
 {
-  const unsigned int n = table.n_gauss, k = table.k;
+  const bool is_divergence = d == RowTable::divergence;
+  const unsigned int n = table.n_gauss, k = table.k, n_own = k + (is_divergence ? 1 : 2);
+  const std::vector<double> &own_functions = is_divergence ? table.other : table.own;
   std::vector<double> result(table.points.size());
-  std::vector<double> modes((k + 1) * (k + 2)), half(n * (k + 2));
+  std::vector<double> modes((k + 1) * n_own), half(n * n_own);
   for (unsigned int m = 0; m < table.products[d].size(); ++m)
     modes[table.products[d][m].number] += table.products[d][m].factor * coefficients[m];
-  multiply('T', 'N', n, k + 2, k + 1, 1., {table.other.data(), k + 1}, {modes.data(), k + 1}, 0.,
+  multiply('T', 'N', n, n_own, k + 1, 1., {table.other.data(), k + 1}, {modes.data(), k + 1}, 0.,
            half.data(), n);
-  if (d == 0)
-    multiply('T', 'T', n, n, k + 2, 1., {table.own.data(), k + 2}, {half.data(), n}, 0.,
+  if (d != 1)
+    multiply('T', 'T', n, n, n_own, 1., {own_functions.data(), n_own}, {half.data(), n}, 0.,
              result.data(), n);
   else
-    multiply('N', 'N', n, n, k + 2, 1., {half.data(), n}, {table.own.data(), k + 2}, 0.,
+    multiply('N', 'N', n, n, n_own, 1., {half.data(), n}, {own_functions.data(), n_own}, 0.,
              result.data(), n);
   return result;
 }
@@ -250,20 +295,22 @@ std::vector<double> RowValues::at_points(const double *const coefficients,
 void RowValues::add_moments(const std::vector<double> &values, const unsigned int d,
                             double *const result) const
 {
-  const unsigned int n = table.n_gauss, k = table.k;
-  std::vector<double> modes((k + 1) * (k + 2)), half((k + 2) * n);
-  if (d == 0)
+  const bool is_divergence = d == RowTable::divergence;
+  const unsigned int n = table.n_gauss, k = table.k, n_own = k + (is_divergence ? 1 : 2);
+  const std::vector<double> &own_functions = is_divergence ? table.other : table.own;
+  std::vector<double> modes((k + 1) * n_own), half(n_own * n);
+  if (d != 1)
   {
-    multiply('N', 'N', k + 2, n, n, 1., {table.own.data(), k + 2}, {values.data(), n}, 0.,
-             half.data(), k + 2);
-    multiply('N', 'T', k + 1, k + 2, n, 1., {table.other.data(), k + 1}, {half.data(), k + 2}, 0.,
+    multiply('N', 'N', n_own, n, n, 1., {own_functions.data(), n_own}, {values.data(), n}, 0.,
+             half.data(), n_own);
+    multiply('N', 'T', k + 1, n_own, n, 1., {table.other.data(), k + 1}, {half.data(), n_own}, 0.,
              modes.data(), k + 1);
   }
   else
   {
     multiply('N', 'N', k + 1, n, n, 1., {table.other.data(), k + 1}, {values.data(), n}, 0.,
              half.data(), k + 1);
-    multiply('N', 'T', k + 1, k + 2, n, 1., {half.data(), k + 1}, {table.own.data(), k + 2}, 0.,
+    multiply('N', 'T', k + 1, n_own, n, 1., {half.data(), k + 1}, {own_functions.data(), n_own}, 0.,
              modes.data(), k + 1);
   }
   for (unsigned int m = 0; m < table.products[d].size(); ++m)
@@ -274,7 +321,7 @@ void RowValues::add(const RowFields &fields, Stress &stress) const
 {
   const unsigned int n_points = table.points.size();
   for (unsigned int row = 0; row < 2; ++row)
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < n_components(row); ++d)
     {
       const std::vector<double> field = at_points(&fields.fields[row * table.n_fields()], d);
       for (unsigned int part = 0; part < n_parts; ++part)
@@ -294,7 +341,7 @@ RowFields RowValues::derivatives(const Stress &stress) const
       values[i] += stress.corners[c] * corner_moments[c][i];
   RowFields result(table);
   for (unsigned int row = 0; row < 2; ++row)
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < n_components(row); ++d)
     {
       std::fill(field.begin(), field.end(), 0.);
       for (unsigned int part = 0; part < n_parts; ++part)
@@ -334,20 +381,49 @@ double RowValues::square(const Stress &stress, const bool is_antisymmetric) cons
 }
 
 void RowValues::subtract(const unsigned int q, const SymmetricTensor<2, 2> &sigma, const double psi,
-                         Stress &stress) const
+                         Stress &stress, const double around) const
 {
-  for (unsigned int a = 0; a < 3; ++a)
-    for (unsigned int b = a; b < 3; ++b)
+  const std::array<double, 4> components{
+      {psi * sigma[0][0], psi * sigma[1][1], psi * sigma[0][1], around}};
+  for (unsigned int a = 0; a + 1 < n_parts; ++a)
+    for (unsigned int b = a; b + 1 < n_parts; ++b)
       stress.values[a * table.points.size() + q] -=
-          roots[q] * psi * compliance[b][a] * sigma.access_raw_entry(b);
+          roots[q] * std::sqrt(turns[q]) * compliance[b][a] * components[b];
 }
 
-std::vector<RowValues::Column> RowValues::columns(const std::array<double, 4> &scale) const
+RowFields RowValues::antisymmetric_mean() const
+{
+  Stress unit(*this);
+  for (unsigned int q = 0; q < roots.size(); ++q)
+    unit.values[(n_parts - 1) * roots.size() + q] = roots[q] / antisymmetry;
+  return derivatives(unit);
+}
+
+std::vector<RowFields> RowValues::along(const unsigned int face, const unsigned int row) const
+{
+  std::vector<RowFields> result(table.k, RowFields(table));
+  const unsigned int d = 1 - face / 2, n = table.k + 1;
+  const std::vector<double> L = legendre::values(n, face % 2 ? 1. : -1.);
+  for (unsigned int m = 0; m < table.n_fields(); ++m)
+    if (const auto &[number, factor] = table.products[d][m]; number / n < table.k)
+      result[number / n].fields[row * table.n_fields() + m] = factor * L[number % n];
+  return result;
+}
+
+std::vector<RowValues::Column> RowValues::bubbles() const
 {
   std::vector<Column> result;
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int m = 0; m < table.k * table.k; ++m)
       result.push_back({row, m, 1.});
+  for (unsigned int m = table.of_divergence() + 1; is_axisymmetric && m < table.n_fields(); ++m)
+    result.push_back({0, m, 1.});
+  return result;
+}
+
+std::vector<RowValues::Column> RowValues::columns(const std::array<double, 4> &scale) const
+{
+  std::vector<Column> result = bubbles();
   for (unsigned int face = 0; face < 4; ++face)
     for (unsigned int row = 0; row < 2; ++row)
       for (unsigned int i = 0; i <= table.k; ++i)
@@ -387,7 +463,7 @@ std::vector<double> RowValues::products(const std::vector<RowFields> &corners,
                                         const std::array<double, 4> &scale) const
 {
   const std::vector<Column> all = columns(scale);
-  const unsigned int n_bubbles = 2 * table.k * table.k, n_corners = corners.size(),
+  const unsigned int n_bubbles = all.size() - 8 * (table.k + 1), n_corners = corners.size(),
                      stride = all.size() + n_corners;
   const auto place = [&](const unsigned int column)
   { return column < n_bubbles ? column : column + n_corners; };
@@ -395,7 +471,7 @@ std::vector<double> RowValues::products(const std::vector<RowFields> &corners,
   add_products(all, stride, n_corners, result);
   for (unsigned int c = 0; c < n_corners; ++c)
   {
-    Stress stress(table);
+    Stress stress(*this);
     add(corners[c], stress);
     const RowFields by_fields = derivatives(stress);
     const auto set = [&](const unsigned int row, const double value)
@@ -418,14 +494,23 @@ std::vector<double> RowValues::products(const std::vector<RowFields> &corners,
 void RowValues::add_products(const std::vector<Column> &all, const unsigned int stride,
                              const unsigned int n_corners, std::vector<double> &result) const
 {
-  const unsigned int n_bubbles = 2 * table.k * table.k;
+  const unsigned int n_bubbles = all.size() - 8 * (table.k + 1);
   const auto place_of = [&](const unsigned int column)
   { return column < n_bubbles ? column : column + n_corners; };
-  const unsigned int n = table.n_gauss, n_own = table.k + 2, n_other = table.k + 1,
-                     n_columns = all.size();
-  const std::vector<double> squares = pairs(table.other, n_other, table.other, n_other, n),
-                            own_squares = pairs(table.own, n_own, table.own, n_own, n),
-                            mixed = pairs(table.own, n_own, table.other, n_other, n);
+  const unsigned int n = table.n_gauss, n_other = table.k + 1, n_columns = all.size();
+  // Functions of xi and of eta, and which of them a product has.
+  const auto is_own = [](const unsigned int d, const unsigned int variable)
+  { return d == variable; };
+  std::array<std::array<std::vector<double>, 2>, 2> both;
+  for (const bool first : {false, true})
+    for (const bool second : {false, true})
+      both[first][second] = pairs(first ? table.own : table.other, n_other + first,
+                                  second ? table.own : table.other, n_other + second, n);
+  const auto functions_of = [&](const unsigned int d, const unsigned int number)
+  {
+    const unsigned int x = number / n_other, l = number % n_other;
+    return d == 1 ? std::array<unsigned int, 2>{{l, x}} : std::array<unsigned int, 2>{{x, l}};
+  };
   std::vector<double> half, M;
   // w is n x n, xi fastest: sums over one variable, then over the other
   const auto sum = [&](const std::vector<double> &of_xi, const std::vector<double> &w,
@@ -441,34 +526,27 @@ void RowValues::add_products(const std::vector<Column> &all, const unsigned int 
   };
   for (unsigned int r = 0; r < 2; ++r)
     for (unsigned int s = 0; s <= r; ++s)
-      for (unsigned int d = 0; d < 2; ++d)
-        for (unsigned int e = 0; e < 2; ++e)
+      for (unsigned int d = 0; d < n_components(r); ++d)
+        for (unsigned int e = 0; e < n_components(s); ++e)
         {
-          const unsigned int n_xi = sum(d != e   ? mixed
-                                        : d == 0 ? own_squares
-                                                 : squares,
-                                        weight(r, d, s, e),
-                                        d != e   ? mixed
-                                        : d == 0 ? squares
-                                                 : own_squares);
+          const unsigned int n_xi = sum(both[is_own(d, 0)][is_own(e, 0)], weight(r, d, s, e),
+                                        both[is_own(d, 1)][is_own(e, 1)]);
+          const std::array<unsigned int, 2> n_second{
+              {n_other + is_own(e, 0), n_other + is_own(e, 1)}};
           for (unsigned int a = 0; a < n_columns; ++a)
           {
             const RowTable::Product &first = table.products[d][all[a].field];
             if (all[a].row != r || first.factor == 0.)
               continue;
-            const unsigned int x = first.number / n_other, l = first.number % n_other;
+            const auto [x, y] = functions_of(d, first.number);
             for (unsigned int b = 0; b < n_columns; ++b)
             {
               const RowTable::Product &second = table.products[e][all[b].field];
               if (all[b].row != s || second.factor == 0. || (r == s && b > a))
                 continue;
-              const unsigned int y = second.number / n_other, m = second.number % n_other;
-              // own functions of component 0 depend on xi, of component 1 on eta
-              const std::size_t place = d == 0 && e == 0 ? (l * n_other + m) * n_xi + x * n_own + y
-                                        : d == 1 && e == 1
-                                            ? (x * n_own + y) * n_xi + l * n_other + m
-                                        : d == 0 ? (y * n_other + l) * n_xi + x * n_other + m
-                                                 : (x * n_other + m) * n_xi + y * n_other + l;
+              const auto [u, v] = functions_of(e, second.number);
+              const std::size_t place =
+                  std::size_t(y * n_second[1] + v) * n_xi + x * n_second[0] + u;
               result[std::size_t(place_of(b)) * stride + place_of(a)] +=
                   all[a].factor * all[b].factor * first.factor * second.factor * M[place];
             }
@@ -496,7 +574,10 @@ std::array<double, 4> over(const std::array<double, 4> &densities, const double 
 } // namespace
 
 RowElement::RowElement(const RowTable &table, const RowShape &shape)
-    : table(table), values(table, shape), scale(over(shape.densities, shape.h))
+    : table(table), values(table, shape), n_conditions(shape.face_on_axis()     ? 5
+                                                       : values.is_axisymmetric ? 1
+                                                                                : 3),
+      scale(over(shape.densities, shape.h)), bubbles(values.bubbles())
 {
   add_corners(shape);
   const std::vector<double> H = values.products(corners, scale);
@@ -515,10 +596,72 @@ RowElement::RowElement(const RowTable &table, const RowShape &shape)
   require_regular(cholesky(n, L.data(), n), cells);
   solve_triangular('N', n, m, {L.data(), n}, W.data(), n);
   multiply('T', 'N', m, m, n, -1., {W.data(), n}, {W.data(), n}, 1., G.data(), m);
+  if (values.is_axisymmetric)
+    set_constraints(shape);
   set_conditions(shape);
 }
 
-/** Forces along x and y and the moment about the middle, of tractions less divergences; those of tractions have length 1. */
+/** The least energy under conditions on bubbles has as many terms more as there are conditions. */
+void RowElement::set_constraints(const RowShape &shape)
+{
+  if (shape.face_on_axis())
+    for (unsigned int row = 0; row < 2; ++row)
+      for (RowFields &of : values.along(*shape.face_on_axis(), row))
+        constraints.push_back(std::move(of));
+  else
+    constraints.push_back(values.antisymmetric_mean());
+  const unsigned int n = n_bubbles(), m = n_edges(), k = constraints.size();
+  for (const RowFields &of : constraints)
+  {
+    const std::vector<double> bubbles_of = by_bubbles(of), edges_of = by_edges(of);
+    by_bubbles_of.insert(by_bubbles_of.end(), bubbles_of.begin(), bubbles_of.end());
+    by_edges_of.insert(by_edges_of.end(), edges_of.begin(), edges_of.end());
+  }
+  solve_triangular('N', n, k, {L.data(), n}, by_bubbles_of.data(), n);
+  multiply('T', 'N', m, k, n, -1., {W.data(), n}, {by_bubbles_of.data(), n}, 1., by_edges_of.data(),
+           m);
+  inverse.reinit(k, k);
+  for (unsigned int i = 0; i < k; ++i)
+    for (unsigned int j = 0; j < k; ++j)
+      inverse(i, j) = std::inner_product(&by_bubbles_of[i * n], &by_bubbles_of[i * n] + n,
+                                         &by_bubbles_of[j * n], 0.);
+  inverse.gauss_jordan();
+  std::vector<double> half(m * k);
+  multiply('N', 'N', m, k, k, 1., {by_edges_of.data(), m}, {&inverse(0, 0), k}, 0., half.data(), m);
+  multiply('N', 'T', m, m, k, 1., {half.data(), m}, {by_edges_of.data(), m}, 1., G.data(), m);
+}
+
+/** The multipliers of constraints that @p fields with the best bubbles for @p of_bubbles miss, L^-1 of derivatives. */
+std::vector<double> RowElement::missing(const std::vector<double> &of_bubbles,
+                                        const RowFields &fields) const
+{
+  if (constraints.empty())
+    return {};
+  const unsigned int n = n_bubbles();
+  Vector<double> missed(constraints.size()), result(constraints.size());
+  for (unsigned int i = 0; i < constraints.size(); ++i)
+    missed[i] = std::inner_product(fields.fields.begin(), fields.fields.end(),
+                                   constraints[i].fields.begin(), 0.) -
+                std::inner_product(of_bubbles.begin(), of_bubbles.end(), &by_bubbles_of[i * n], 0.);
+  inverse.vmult(result, missed);
+  return {result.begin(), result.end()};
+}
+
+/** On the faces beside the axis tractions of both rows vanish at the end that is on it. */
+void RowElement::set_ends(const unsigned int face_on_axis)
+{
+  const unsigned int n = table.k + 1, m = n_edges(), first = face_on_axis < 2 ? 2 : 0;
+  const std::vector<double> L = legendre::values(n, face_on_axis % 2 ? 1. : -1.);
+  for (unsigned int c = 1; c < n_conditions; ++c)
+  {
+    const unsigned int face = first + (c - 1) / 2, row = (c - 1) % 2;
+    lengths[c] = std::sqrt(std::inner_product(L.begin(), L.end(), L.begin(), 0.));
+    for (unsigned int i = 0; i < n; ++i)
+      N[c * m + (2 * face + row) * n + i] = L[i] / lengths[c];
+  }
+}
+
+/** Forces along x and y and the moment about the middle, of tractions less divergences; those of tractions have length 1. In a body of revolution the force along y. */
 void RowElement::set_conditions(const RowShape &shape)
 {
   const unsigned int k = table.k, n = k + 1, m = n_edges();
@@ -528,11 +671,14 @@ void RowElement::set_conditions(const RowShape &shape)
     const Tensor<1, 2> x = (shape.map.point(reference) - centre) / shape.h;
     return z < 2 ? Tensor<1, 2>({z == 0 ? 1. : 0., z == 1 ? 1. : 0.}) : Tensor<1, 2>({-x[1], x[0]});
   };
-  N.assign(3 * m, 0.);
-  N_divergence.assign(std::size_t(6) * n * n, 0.);
+  N.assign(n_conditions * m, 0.);
+  N_divergence.assign(std::size_t(2) * n_conditions * n * n, 0.);
   const QGauss<1> gauss(table.n_gauss);
-  for (unsigned int z = 0; z < 3; ++z)
+  if (shape.face_on_axis())
+    set_ends(*shape.face_on_axis());
+  for (unsigned int c = 0; c < std::min(n_conditions, values.is_axisymmetric ? 1U : 3U); ++c)
   {
+    const unsigned int z = values.is_axisymmetric ? 1 : c;
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const std::vector<double> along = legendre::values(n, 2 * gauss.point(q)[0] - 1);
@@ -541,7 +687,7 @@ void RowElement::set_conditions(const RowShape &shape)
         const Tensor<1, 2> v = motion(z, point_on_face<2>(face, gauss.point(q)));
         for (unsigned int row = 0; row < 2; ++row)
           for (unsigned int i = 0; i < n; ++i)
-            N[z * m + (2 * face + row) * n + i] +=
+            N[c * m + (2 * face + row) * n + i] +=
                 (face % 2 ? 2. : -2.) * scale[face] * gauss.weight(q) * v[row] * along[i];
       }
     }
@@ -553,18 +699,18 @@ void RowElement::set_conditions(const RowShape &shape)
       for (unsigned int row = 0; row < 2; ++row)
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
-            N_divergence[((2 * z + row) * n + i) * n + j] +=
+            N_divergence[((2 * c + row) * n + i) * n + j] +=
                 table.weights[q] * v[row] * L_x[i] * L_y[j];
     }
-    double &length = lengths[z];
+    double &length = lengths[c];
     length = 0;
     for (unsigned int i = 0; i < m; ++i)
-      length += N[z * m + i] * N[z * m + i];
+      length += N[c * m + i] * N[c * m + i];
     length = std::sqrt(length);
     for (unsigned int i = 0; i < m; ++i)
-      N[z * m + i] /= length;
+      N[c * m + i] /= length;
     for (unsigned int i = 0; i < 2 * n * n; ++i)
-      N_divergence[2 * z * n * n + i] /= length;
+      N_divergence[2 * c * n * n + i] /= length;
   }
 }
 
@@ -574,13 +720,13 @@ TractionEnergy RowElement::energy() const
   return {n, n, n_conditions, {G.data(), n_edges()}, {N.data(), n_edges()}};
 }
 
-std::array<double, 3> RowElement::moments(const double *const divergence) const
+RowElement::Conditions RowElement::moments(const double *const divergence) const
 {
   const unsigned int n = 2 * (table.k + 1) * (table.k + 1);
-  std::array<double, 3> result{};
-  for (unsigned int z = 0; z < 3; ++z)
+  Conditions result{};
+  for (unsigned int c = 0; c < n_conditions; ++c)
     for (unsigned int i = 0; i < n; ++i)
-      result[z] += N_divergence[z * n + i] * divergence[i];
+      result[c] += N_divergence[c * n + i] * divergence[i];
   return result;
 }
 
@@ -614,44 +760,57 @@ void RowElement::add_corners(const RowShape &shape)
 std::vector<double> RowElement::by_bubbles(const RowFields &derivatives) const
 {
   std::vector<double> result;
-  for (unsigned int row = 0; row < 2; ++row)
-    result.insert(result.end(), &derivatives.fields[row * table.n_fields()],
-                  &derivatives.fields[row * table.n_fields()] + table.k * table.k);
+  for (const RowValues::Column &bubble : bubbles)
+    result.push_back(derivatives.fields[bubble.row * table.n_fields() + bubble.field]);
   for (unsigned int c = 0; c < corners.size(); ++c)
     result.push_back(std::inner_product(corners[c].fields.begin(), corners[c].fields.end(),
                                         derivatives.fields.begin(), derivatives.corners[c]));
   return result;
 }
 
-RowFields RowElement::best_bubbles(const RowFields &derivatives) const
+std::vector<double> RowElement::by_edges(const RowFields &derivatives) const
 {
-  const unsigned int n = table.k * table.k, n_fields = table.n_fields();
-  std::vector<double> y = by_bubbles(derivatives);
-  solve_by_cholesky(n_bubbles(), L, y.data());
-  RowFields result(table);
-  for (unsigned int row = 0; row < 2; ++row)
-    for (unsigned int i = 0; i < n; ++i)
-      result.fields[row * n_fields + i] = -y[row * n + i];
-  for (unsigned int c = 0; c < corners.size(); ++c)
-  {
-    result.corners[c] = -y[2 * n + c];
-    for (unsigned int i = 0; i < result.fields.size(); ++i)
-      result.fields[i] -= y[2 * n + c] * corners[c].fields[i];
-  }
-  return result;
-}
-
-std::vector<double> RowElement::reduced(const RowFields &derivatives) const
-{
-  const unsigned int n = n_bubbles(), m = n_edges();
-  std::vector<double> of_bubbles = by_bubbles(derivatives), result;
-  solve_triangular('N', n, 1, {L.data(), n}, of_bubbles.data(), n);
+  std::vector<double> result;
   for (unsigned int face = 0; face < 4; ++face)
     for (unsigned int row = 0; row < 2; ++row)
       for (unsigned int i = 0; i <= table.k; ++i)
         result.push_back(scale[face] *
                          derivatives.fields[row * table.n_fields() + table.of_face(face) + i]);
+  return result;
+}
+
+RowFields RowElement::best_bubbles(const RowFields &derivatives, const RowFields &fields) const
+{
+  const unsigned int n = n_bubbles();
+  std::vector<double> y = by_bubbles(derivatives);
+  solve_triangular('N', n, 1, {L.data(), n}, y.data(), n);
+  const std::vector<double> multipliers = missing(y, fields);
+  for (unsigned int c = 0; c < multipliers.size(); ++c)
+    for (unsigned int i = 0; i < n; ++i)
+      y[i] += multipliers[c] * by_bubbles_of[c * n + i];
+  solve_triangular('T', n, 1, {L.data(), n}, y.data(), n);
+  RowFields result(table);
+  for (unsigned int i = 0; i < bubbles.size(); ++i)
+    result.fields[bubbles[i].row * table.n_fields() + bubbles[i].field] = -y[i];
+  for (unsigned int c = 0; c < corners.size(); ++c)
+  {
+    result.corners[c] = -y[bubbles.size() + c];
+    for (unsigned int i = 0; i < result.fields.size(); ++i)
+      result.fields[i] -= y[bubbles.size() + c] * corners[c].fields[i];
+  }
+  return result;
+}
+
+std::vector<double> RowElement::reduced(const RowFields &derivatives, const RowFields &fields) const
+{
+  const unsigned int n = n_bubbles(), m = n_edges();
+  std::vector<double> of_bubbles = by_bubbles(derivatives), result = by_edges(derivatives);
+  solve_triangular('N', n, 1, {L.data(), n}, of_bubbles.data(), n);
   multiply('T', 'N', m, 1, n, -1., {W.data(), n}, {of_bubbles.data(), n}, 1., result.data(), m);
+  const std::vector<double> multipliers = missing(of_bubbles, fields);
+  for (unsigned int c = 0; c < multipliers.size(); ++c)
+    for (unsigned int i = 0; i < m; ++i)
+      result[i] += multipliers[c] * by_edges_of[c * m + i];
   return result;
 }
 } // namespace hpvi

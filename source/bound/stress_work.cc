@@ -3,6 +3,7 @@
 #include <hpvi/bound/stress_work.h>
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/element_matrices.h>
 #include <hpvi/plane/load_quadrature.h>
 #include <hpvi/results/common_refinement.h>
 
@@ -27,10 +28,15 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
   const unsigned int cell = part.a->active_cell_index(),
                      p = solution.displacement_space.degrees()[cell];
   const CellMap<2> map = map_of<2>(part.a), other = map_of<2>(part.b);
-  const unsigned int n_gauss = (p + degree) / 2 + 1 + (map.is_affine() ? 0 : 3);
+  unsigned int n_gauss = (p + degree) / 2 + 1 + (map.is_affine() ? 0 : 3);
+  if (scene.is_axisymmetric())
+    n_gauss = std::max(n_gauss, stiffness_points(scene, map, (p + degree) / 2));
   const ShapeTable<2> &of_u = tables.in(part.in_a, p, n_gauss, solution.tables),
                       &of_w = tables.in(part.in_b, degree, n_gauss, solution.tables);
-  const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell));
+  const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell)),
+                            values = scene.is_axisymmetric()
+                                         ? evaluate(of_u.values, solution.coefficients(cell))
+                                         : std::vector<double>();
   const HookesLaw<2> law(scene.material_of(part.a));
   WorkOnShapes work{std::vector<double>(2 * of_w.n_shapes), std::vector<double>(2 * of_w.n_shapes)};
   for (unsigned int q = 0; q < of_u.points.size(); ++q)
@@ -38,17 +44,26 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
     const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
     const Tensor<2, 2> gradient =
         physical_gradient<2>(derivatives, q * of_u.rows_per_point, of_u.derivatives.m(), invert(J));
-    const double weight = of_u.weights[q] * part.in_a.volume() * std::abs(determinant(J));
-    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(gradient)) *
+    const Point<2> x = map.point(of_u.points[q]);
+    const double weight = of_u.weights[q] * part.in_a.volume() * std::abs(determinant(J)) *
+                          scene.circumference(x),
+                 hoop = scene.is_axisymmetric() ? values[q] / x[0] : 0.;
+    const Tensor<2, 2> pulled = weight * Tensor<2, 2>(law.stress(gradient, hoop)) *
                                 transpose(invert(other.jacobian(of_w.points[q])));
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int r = 0; r < 2; ++r)
-        for (unsigned int i = 0; i < of_w.n_shapes; ++i)
-        {
-          const double part = pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i);
-          work.sum[c * of_w.n_shapes + i] += part;
-          work.absolute[c * of_w.n_shapes + i] += std::abs(part);
-        }
+    const auto add = [&](const unsigned int place, const double value)
+    {
+      work.sum[place] += value;
+      work.absolute[place] += std::abs(value);
+    };
+    for (unsigned int i = 0; i < of_w.n_shapes; ++i)
+    {
+      for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int r = 0; r < 2; ++r)
+          add(c * of_w.n_shapes + i,
+              pulled[c][r] * of_w.derivatives(q * of_w.rows_per_point + r, i));
+      if (scene.is_axisymmetric())
+        add(i, weight * law.hoop_stress(gradient, hoop) / x[0] * of_w.values(q, i));
+    }
   }
   return work;
 }
@@ -98,7 +113,7 @@ void TractionWork::add(const EdgeTraction &edge, const Solution<2> &solution,
       const Point<2> x = edge.point(s);
       Tensor<1, 2> T = edge.value(s);
       if (condition.has_traction())
-        T -= load_at<2>(condition.traction, x);
+        T -= solution.scene.circumference(x) * load_at<2>(condition.traction, x);
       const Tensor<1, 2> at_x = w(s, x);
       sum += gauss.weight(q) * part * length * (T * at_x);
       absolute += gauss.weight(q) * part * length * T.norm() * at_x.norm();

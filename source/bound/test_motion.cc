@@ -139,6 +139,8 @@ Tensor<1, 2> TestMotion::motion(const unsigned int boundary, const Point<2> &x) 
     return original.boundaries[goal].held_direction(sides[goal].normal(x));
   case BoundaryMotion::tangential:
     return turned(original.boundaries[goal].held_direction(sides[goal].normal(x)));
+  case BoundaryMotion::none:
+    break;
   }
   return result;
 }
@@ -240,9 +242,42 @@ double TestMotion::Fall::work(const Scene<2> &scene, const double l) const
   constexpr unsigned int n_points = 16, n_parts = 32; // as many samples as loads have along a side
   const FrictionLaw<2> &friction = scene.boundaries[boundary].friction;
   const CutRule rule = make_cut_rule(
-      [&](const double s) { return (1 - s) * friction.bound_at(from + s * l * towards); },
+      [&](const double s)
+      {
+        const Point<2> x = from + s * l * towards;
+        return (1 - s) * scene.circumference(x) * friction.bound_at(x);
+      },
       QGauss<1>(n_points), {0, 1, 2}, n_parts);
   return offset.norm() * l * (std::max(rule.integral(), rule.finer_integral) + rule.deviation);
+}
+
+TestMotion::TestMotion(const TestMotion &other, const Fall &fall)
+    : original(other.original), sides(other.sides), goal(fall.boundary), body(other.body),
+      resultant(BoundaryMotion::none), all_falls({fall})
+{
+}
+
+TestMotion TestMotion::pressing(const Fall &fall, const double l) const
+{
+  constexpr unsigned int n_samples = 512; // as many as loads have along a side
+  const BoundaryCondition<2> &boundary = original.boundaries[fall.boundary];
+  double largest = 0;
+  for (unsigned int i = 0; i <= n_samples; ++i)
+    largest = std::max(
+        largest, boundary.friction.coefficient_at(fall.from + l * i / n_samples * fall.towards));
+  const Tensor<1, 2> n = boundary.held_direction(sides[fall.boundary].normal(fall.from));
+  TestMotion result(*this, {fall.boundary, fall.from, largest * fall.offset.norm() * n,
+                            fall.towards, TractionKind::pressure});
+  for (const Meeting &meeting : meetings())
+    if (meeting.at.distance(fall.from) < 1e-9 * original.geometry.diameter())
+      for (const unsigned int b : meeting.boundaries)
+        for (const Row &row : rows(b, meeting.at))
+          if (b != fall.boundary && row.kind != TractionKind::given &&
+              std::abs(row.direction * n) > 1e-9)
+            result.why_not = "the friction of " + boundary.name + " and what " +
+                             original.boundaries[b].name + " carries where they meet, at " +
+                             to_string(meeting.at);
+  return result;
 }
 
 std::vector<double> TestMotion::kinks(const unsigned int boundary, const Point<2> &begin,

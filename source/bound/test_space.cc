@@ -170,7 +170,9 @@ double TestSpace::square_by_strains(const Vector<double> &w) const
     std::vector<double> local(dofs.size());
     for (unsigned int i = 0; i < dofs.size(); ++i)
       local[numbering.component[i] * table.n_shapes + numbering.shape[i]] = w[dofs[i]];
-    const std::vector<double> derivatives = evaluate(table.derivatives, local);
+    const std::vector<double> derivatives = evaluate(table.derivatives, local),
+                              values = scene.is_axisymmetric() ? evaluate(table.values, local)
+                                                               : std::vector<double>();
     const CellMap<2> map = map_of<2>(cell);
     const HookesLaw<2> law(scene.material_of(cell));
     for (unsigned int q = 0; q < table.points.size(); ++q)
@@ -178,7 +180,10 @@ double TestSpace::square_by_strains(const Vector<double> &w) const
       const Tensor<2, 2> J = map.jacobian(table.points[q]);
       const SymmetricTensor<2, 2> strain = symmetrize(physical_gradient<2>(
           derivatives, q * table.rows_per_point, table.derivatives.m(), invert(J)));
-      result += table.weights[q] * std::abs(determinant(J)) * (law.stress(strain) * strain);
+      const Point<2> x = map.point(table.points[q]);
+      result +=
+          table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
+          law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
     }
   }
   return result;
@@ -193,7 +198,9 @@ namespace
 class SeenMotions
 {
 public:
-  SeenMotions(const Point<2> &centre, const double size) : centre(centre), size(size)
+  SeenMotions(const Scene<2> &scene)
+      : centre(scene.geometry.centre()), size(scene.geometry.diameter()),
+        is_axisymmetric(scene.is_axisymmetric())
   {
   }
 
@@ -202,9 +209,12 @@ public:
   {
     const Tensor<1, 2> arm = (x - centre) / size;
     Tensor<1, 3> row;
-    row[0] = direction[0];
     row[1] = direction[1];
-    row[2] = arm[0] * direction[1] - arm[1] * direction[0];
+    if (!is_axisymmetric) // strains around an axis resist all but the way along it
+    {
+      row[0] = direction[0];
+      row[2] = arm[0] * direction[1] - arm[1] * direction[0];
+    }
     for (const Tensor<1, 3> &q : basis)
       row -= (row * q) * q;
     if (basis.size() == 3 || row.norm() < 1e-6)
@@ -216,6 +226,7 @@ public:
 private:
   const Point<2> centre;
   const double size;
+  const bool is_axisymmetric;
   std::vector<Tensor<1, 3>> basis;
 };
 } // namespace
@@ -224,7 +235,7 @@ std::vector<SupportedNode<2>> TestSpace::held_nodes(const TestMotion &motion) co
 {
   const std::vector<double> l = lengths(motion);
   std::vector<SupportedNode<2>> result;
-  SeenMotions seen(scene.geometry.centre(), scene.geometry.diameter());
+  SeenMotions seen(scene);
   std::vector<const Node *> own;
   for (const Node &node : nodes)
   {

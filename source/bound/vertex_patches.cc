@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/edge_polynomial.h>
 #include <hpvi/bound/vertex_patches.h>
 #include <hpvi/plane/matching.h>
@@ -127,11 +128,11 @@ void VertexPatches::collect_edges(const Solution<2> &solution, const JointTracti
         }
         if (const JointEdge *const joint = joints ? joints->edge(index, f) : nullptr)
         {
-          // a bilateral foundation has no multiplier along its normal
-          edge.is_given = joint->pieces[0].has_other ||
-                          condition_of(edge, solution).is_unilateral() ||
-                          condition_of(edge, solution).contact == Contact::tangential;
-          edge.degree = std::max(edge.degree, joints->degree(*joint) + 2);
+          // where V holds the normal displacement there is no multiplier along it
+          edge.is_given = !condition_of(edge, solution).holds_normal();
+          // with hat functions and the radius, since its ends on an axis have to be met exactly
+          edge.degree = std::max(edge.degree, joints->degree(*joint) +
+                                                  (solution.scene.is_axisymmetric() ? 3 : 2));
         }
       }
       else if (cell->face(f)->has_children())
@@ -148,6 +149,7 @@ void VertexPatches::collect_edges(const Solution<2> &solution, const JointTracti
       edge.length = along.norm();
       const CellMap<2> map = map_of<2>(cell);
       edge.is_curved = map.is_curved() && map.blends()[f];
+      edge.is_on_axis = solution.scene.is_axisymmetric() && axis_face(map) == f;
       edge.tangent = along / edge.length;
       const double turn = f < 2 ? 1. : -1.;
       edge.normal[0] = turn * edge.tangent[1];
@@ -188,6 +190,11 @@ void VertexPatches::set_directions(const Scene<2> &scene, StressEdge &edge) cons
   if (!edge.at_boundary())
     return;
   const BoundaryCondition<2> &condition = scene.boundaries[edge.boundary];
+  if (edge.is_on_axis)
+  {
+    one.is_unknown = other.is_unknown = false;
+    return;
+  }
   if (edge.is_given)
     one.is_unknown = other.is_unknown = false;
   else if (condition.has_contact())

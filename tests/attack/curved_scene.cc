@@ -14,7 +14,7 @@ namespace
 class CurvedScene
 {
 public:
-  explicit CurvedScene(std::mt19937 &random) : dice(random)
+  CurvedScene(std::mt19937 &random, const bool is_turned) : dice(random), is_turned(is_turned)
   {
     out.precision(17);
   }
@@ -28,8 +28,10 @@ private:
              double scale);
   void discs();
   void rings();
+  void tubes();
 
   Dice dice;
+  const bool is_turned; ///< around an axis
   std::ostringstream out;
   double soft = 1;
 };
@@ -107,13 +109,14 @@ void CurvedScene::rings()
                width = is_whole ? 360. : dice.number(60, 120);
   const auto ring = [&](const std::string &radii)
   {
-    return "  set Shape = ring sector\n  set Radii = " + radii +
-           "\n  set Angles = " + metamorphic::text(begin) + ", " +
+    return std::string("  set Shape = ring sector\n") + (is_turned ? "  set Centre = 3, 0\n" : "") +
+           "  set Radii = " + radii + "\n  set Angles = " + metamorphic::text(begin) + ", " +
            metamorphic::text(begin + width) + "\n  set Subdivisions = 1, " +
            std::to_string((is_whole ? 9 : 3) + static_cast<unsigned int>(dice.number(0, 3))) + "\n";
   };
-  const std::string gap = metamorphic::text(-deep) + " + " + dice.about(deep / 2) + "*x*y + " +
-                          dice.about(deep / 2) + "*y^2";
+  const std::string x = is_turned ? "(x - 3)" : "x", gap = metamorphic::text(-deep) + " + " +
+                                                           dice.about(deep / 2) + "*" + x +
+                                                           "*y + " + dice.about(deep / 2) + "*y^2";
   const auto hold = [&](const std::string &body)
   {
     for (const char *const end : {"start", "end"})
@@ -145,16 +148,62 @@ void CurvedScene::rings()
         deep);
 }
 
+/** Straight or conical, the inner one solid or not, with any law between them. */
+void CurvedScene::tubes()
+{
+  const bool is_solid = dice.happens(0.4);
+  const double deep = dice.number(0.005, 0.04), r = is_solid ? 0. : dice.number(0.1, 2),
+               cone = dice.number(-0.3, 0.3);
+  const auto at = [](const double x, const double y)
+  { return metamorphic::text(x) + ", " + metamorphic::text(y); };
+  const auto tube = [&](const std::string &corners, const std::string &material_name)
+  {
+    return "  set Shape = quadrilateral\n  set Corners = " + corners + "\n  set Subdivisions = " +
+           (is_solid ? dice.chosen({"2, 2", "2, 3"}) : dice.chosen({"1, 2", "2, 2", "1, 3"})) +
+           "\n  set Material = " + material_name + "\n";
+  };
+  const auto wall = [&](const double y) { return at(r + 1 + cone * (y - 0.5), y); };
+  section("Body in", tube(at(r, 0) + "; " + wall(0) + "; " + wall(1) + "; " + at(r, 1), "a"));
+  const double low = dice.number(-0.4, 0), high = dice.number(1, 1.4);
+  section(
+      "Body out",
+      tube(wall(low) + "; " + at(r + 2, low) + "; " + at(r + 2, high) + "; " + wall(high), "b"));
+  material("a");
+  material("b");
+  section("Boundary out.bottom", "  set Displacement = free; 0\n");
+  section(is_solid ? "Boundary in.top" : "Boundary in.left",
+          "  set Pressure = " + metamorphic::text(soft * deep * dice.number(-0.3, 1)) +
+              (is_solid ? "*(1 + x^2)\n" : "*(1 + y^2)\n"));
+  section("Boundary in.bottom",
+          dice.happens(0.5) ? "  set Spring = 0.2; 0.1\n" : "  set Displacement = free; 0\n");
+  if (dice.happens(0.4))
+    section("Body force",
+            "  set Expression = " + dice.about(soft * deep) + "*y; " + dice.about(soft * deep) +
+                (is_solid ? "" : "*exp(x - " + metamorphic::text(r + 1) + ")") + "\n");
+  const std::string between = dice.happens(0.5) ? "in.right, out.left" : "out.left, in.right";
+  if (dice.happens(0.3))
+    section("Contact fit", "  set Between = " + between + "\n  set Law = tied\n");
+  else
+    press("Contact fit", between, metamorphic::text(-deep) + " + " + dice.about(deep) + "*y^2",
+          deep);
+}
+
 std::string CurvedScene::text()
 {
   out << "set Dimension = 2\n";
-  if (dice.happens(0.5))
+  const bool is_first = dice.happens(0.5);
+  if (is_first && is_turned)
+    tubes();
+  else if (is_first)
     discs();
   else
     rings();
-  section("Material", "  set Plane = " + dice.chosen({"stress", "strain"}) + "\n");
+  section("Material", "  set Plane = " +
+                          (is_turned ? "axisymmetric" : dice.chosen({"stress", "strain"})) + "\n");
   section("Adaptivity", "  set Method = " + dice.chosen({"hup2", "hap2", "hpa2", "hpa3"}) +
-                            "\n  set Start degree = " + dice.chosen({"7", "8", "9"}) +
+                            "\n  set Start degree = " +
+                            (is_turned && is_first ? dice.chosen({"2", "3", "5"})
+                                                   : dice.chosen({"7", "8", "9"})) +
                             "\n  set Indicator = " + dice.chosen({"residual", "bound"}) +
                             "\n  set Maximum steps = " + dice.chosen({"1", "2", "4"}) +
                             "\n  set Maximum unknowns = 4000\n");
@@ -166,6 +215,11 @@ std::string CurvedScene::text()
 
 std::string curved_scene(std::mt19937 &random)
 {
-  return CurvedScene(random).text();
+  return CurvedScene(random, /*is_turned=*/false).text();
+}
+
+std::string turned_scene(std::mt19937 &random)
+{
+  return CurvedScene(random, /*is_turned=*/true).text();
 }
 } // namespace attack

@@ -13,6 +13,9 @@ namespace attack
  * bodies of two meshes, whose edges are polynomials, are the same to less than bounds are apart.
  */
 std::string curved_scene(std::mt19937 &random);
+
+/** The same of bodies of revolution off their axis: rings, and straight tubes with loads of all kinds. */
+std::string turned_scene(std::mt19937 &random);
 } // namespace attack
 
 #endif

@@ -61,17 +61,29 @@ void stretch(RandomScene &scene, Dice &dice)
   scene.is_box = false;
 }
 
-/** None that would leave the scene without a bound, or with another one for each load step: one load step, Tresca's law, no bend in a gap. */
-void choose_law(RandomScene &scene, Dice &dice)
+/** Tresca's; or Coulomb's on contact that opens. */
+void choose_friction(RandomScene &scene, const bool is_coulomb, Dice &dice)
 {
-  for (const char *const entry : {"Loading/Steps", "Loading/Adapt"})
-    scene.settings.erase(entry);
   for (Side &side : scene.sides)
-    if (!side.coefficient.empty())
+    if (is_coulomb && !side.contact.empty())
+    {
+      side.contact = "unilateral";
+      side.law.clear();
+      side.bound.clear();
+      side.coefficient = text(std::pow(10, dice.number(-1.5, 0)));
+    }
+    else if (!side.coefficient.empty())
     {
       side.coefficient.clear();
       side.bound = dice.positive(0.02 * scene.young);
     }
+}
+
+/** None that would leave the scene without a bound, or with another one for each load step: one load step, no bend in a gap. */
+void simplify(RandomScene &scene, Dice &dice)
+{
+  for (const char *const entry : {"Loading/Steps", "Loading/Adapt"})
+    scene.settings.erase(entry);
   for (Side &side : scene.sides)
     if (side.turn) // what is left is the normal, written down
       side.turn = 0.;
@@ -119,7 +131,8 @@ void choose_method(RandomScene &scene, Dice &dice)
   settings["Adaptivity/Maximum steps"] = dice.chosen({"2", "4", "6"});
   settings["Adaptivity/Maximum unknowns"] = "1500";
   settings["Error/Bound"] = "true";
-  settings["Solver/Normal contact"] = dice.chosen({"nodes", "multiplier"});
+  settings["Solver/Normal contact"] =
+      scene.has(&Side::coefficient) ? "multiplier" : dice.chosen({"nodes", "multiplier"});
   if (dice.happens(0.1))
   {
     scene.poisson = 0.4999;
@@ -139,13 +152,14 @@ void stiffen(RandomScene &scene, std::mt19937 random)
 }
 } // namespace
 
-std::string rough_scene(std::mt19937 &random)
+std::string rough_scene(std::mt19937 &random, const bool is_coulomb)
 {
   RandomScene scene(random);
   stiffen(scene, random);
   Dice dice(random);
   stretch(scene, dice);
-  choose_law(scene, dice);
+  choose_friction(scene, is_coulomb, dice);
+  simplify(scene, dice);
   roughen(scene, dice);
   choose_method(scene, dice);
   return scene.text(scene.own_frame());

@@ -25,7 +25,7 @@ public:
   BoundaryTractions(const Solution<2> &solution, const VertexPatches &patches,
                     const Parts &friction, const Parts &pressure, const JointTractions *joints);
 
-  /** The traction at s in [0,1] of an edge. */
+  /** The traction at s in [0,1] of an edge; on a body of revolution all the way around the axis, as all here. */
   dealii::Tensor<1, 2> value(unsigned int edge, double s) const;
 
   /** The part of it that loads and springs exert. */
@@ -73,6 +73,7 @@ private:
   dealii::Tensor<1, 2> friction_on(const StressEdge &edge, unsigned int end, double s,
                                    double bound) const;
   void set(unsigned int edge);
+  void vanish_on_axis(unsigned int edge);
   void add_contact(unsigned int edge);
   void add_joint(unsigned int edge);
   void add_load(unsigned int edge, double s, double weight,

@@ -39,17 +39,17 @@ public:
   struct Data
   {
     std::vector<std::vector<double>> gradients;
-    std::vector<std::array<double, 3>> defects;
+    std::vector<RowElement::Conditions> defects;
   };
 
   std::vector<double> gradient(const Data &data) const; ///< for energy()
-  std::array<double, 3> defect(const Data &data) const;
+  RowElement::Conditions defect(const Data &data) const;
 
   /** Of what RowElement::moments() has for a box what it is for the cell, in the same units as the defect. */
-  std::array<double, 3> of_cell(unsigned int box, const std::array<double, 3> &moments) const;
+  RowElement::Conditions of_cell(unsigned int box, const RowElement::Conditions &moments) const;
 
   /** Of its conditions before they had length 1, as RowElement::lengths. */
-  const std::array<double, 3> &lengths() const
+  const RowElement::Conditions &lengths() const
   {
     return norms;
   }
@@ -70,16 +70,16 @@ private:
   const std::vector<Part> parts;
   const double h;
   const dealii::Point<2> centre;
-  const unsigned int k;
+  const unsigned int k, n_motions;
   unsigned int n = 0; ///< tractions on the faces of the cell and between boxes
   std::vector<dealii::FullMatrix<double>> to; ///< by box: its tractions by those
   dealii::FullMatrix<double> A;               ///< energy, n x n
-  dealii::FullMatrix<double> C;               ///< conditions of all boxes but the last, 3 each, x n
+  dealii::FullMatrix<double> C;               ///< conditions of all boxes but the last x n
   std::unique_ptr<const LuFactor>
       factor; ///< of the inner tractions and the multipliers of their conditions
   dealii::FullMatrix<double> best; ///< n x n_faces: all tractions by those on faces, without data
   std::vector<double> G, N;
-  std::array<double, 3> norms;
+  RowElement::Conditions norms;
   std::vector<dealii::FullMatrix<double>> conditions; ///< by box: of the cell by those of the box
 };
 } // namespace hpvi

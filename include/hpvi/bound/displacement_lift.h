@@ -4,8 +4,7 @@
 
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/shape_tables.h>
-#include <hpvi/scene/boundary_condition.h>
-#include <hpvi/scene/material.h>
+#include <hpvi/scene/scene.h>
 
 #include <array>
 #include <vector>
@@ -25,7 +24,7 @@ namespace hpvi
  * which changes the volume by `delta_s' b + m B b'` only: with r large and m small next to nothing.
  */
 double lift_energy(const CellMap<2> &map, unsigned int face,
-                   const std::array<dealii::Vector<double>, 2> &delta, const HookesLaw<2> &law,
+                   const std::array<dealii::Vector<double>, 2> &delta, const Material &material,
                    const ShapeTables<2> &tables);
 
 /** A displacement at a point of a quadrature rule along an edge. */
@@ -41,11 +40,11 @@ std::vector<EdgePoint> edge_points(const std::array<dealii::Vector<double>, 2> &
 
 /** The same with `delta(s) (1 - n)^q` alone, for pieces of polynomials which the points integrate. */
 double lift_energy(const CellMap<2> &map, unsigned int face, const std::vector<EdgePoint> &delta,
-                   const HookesLaw<2> &law, const ShapeTables<2> &tables);
+                   const Material &material, const ShapeTables<2> &tables);
 
 /** int k delta . delta over an edge, of springs if it has any [stress length^2]. */
-double spring_energy(const BoundaryCondition<2> &condition, const CellMap<2> &map,
-                     unsigned int face, const std::vector<EdgePoint> &delta);
+double spring_energy(const Scene<2> &scene, const BoundaryCondition<2> &condition,
+                     const CellMap<2> &map, unsigned int face, const std::vector<EdgePoint> &delta);
 } // namespace hpvi
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef hpvi_row_element_h
 #define hpvi_row_element_h
 
+#include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/traction_energy.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/material.h>
@@ -10,6 +11,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace hpvi
@@ -49,14 +51,15 @@ struct RowTable
 
   /**
    * Each component of a field is @p factor times one product: along its own direction N_i, (1 - x)/2 or (1 + x)/2, number @p x of these k + 2, along
-   * the other L_l. Products are counted by `x (k + 1) + l`. Factor 0: the component is zero.
+   * the other L_l. Products are counted by `x (k + 1) + l`. Its divergence is L_x(xi) L_l(eta). Factor 0: the component is zero.
    */
   struct Product
   {
     unsigned int number = 0;
     double factor = 0;
   };
-  std::array<std::vector<Product>, 2> products; ///< xi and eta component, by field
+  static constexpr unsigned int divergence = 2; ///< behind the xi and the eta component
+  std::array<std::vector<Product>, 3> products; ///< by field
 
   std::vector<double> own, other; ///< those functions at Gauss points, (k + 2) x n and (k + 1) x n
 
@@ -80,6 +83,18 @@ struct RowShape
   std::array<double, 4>
       densities; ///< by face: flux on [-1,1] over the traction that StressEdge counts [length]
   double antisymmetry; ///< C_K of CellConstants
+
+  /** Of a body of revolution, whose rows are those of `2 pi x s`. */
+  bool is_axisymmetric() const
+  {
+    return law->plane == PlaneModel::axisymmetric;
+  }
+
+  /** Of such a body: that along the axis, where rows vanish; C_K is for (int q^2/w)^{1/2} then, without a mean. */
+  std::optional<unsigned int> face_on_axis() const
+  {
+    return is_axisymmetric() ? axis_face(map) : std::nullopt;
+  }
 };
 
 /** A stress by its fields, row by row, and the amplitudes of its corner stresses; or derivatives by them. */
@@ -96,20 +111,26 @@ struct RowFields
 /**
  * One cell: stresses in energy, `(s, C^-1 s)^{1/2}` by its parts and `theta^{1/2} C_K (s_12 - s_21)`, at the points of its table. A corner stress is
  * known by its products with what is there, a polynomial through these points.
+ *
+ * In a body of revolution rows are those of `w s`, w = 2 pi x, and the first has no datum: `w s_tt = x Div r_1 + x w F_r` is the stress around the
+ * axis. Energies have 1/w, what is antisymmetric has not.
  */
 class RowValues
 {
 public:
   RowValues(const RowTable &table, const RowShape &shape);
 
-  static constexpr unsigned int n_parts = 4; ///< the last is the antisymmetric one
   static constexpr double theta = 16;
+
+  const RowTable &table;
+  const bool is_axisymmetric;
+  const unsigned int n_parts; ///< the last is the antisymmetric one
 
   /** In energy at all points, n_parts x points, and corner stresses by their amplitudes. */
   struct Stress
   {
-    explicit Stress(const RowTable &table)
-        : values(n_parts * table.points.size()), corners(table.corners.size())
+    explicit Stress(const RowValues &of)
+        : values(of.n_parts * of.table.points.size()), corners(of.table.corners.size())
     {
     }
 
@@ -123,9 +144,14 @@ public:
   double square(const Stress &stress,
                 bool is_antisymmetric) const; ///< of the last part, or of the others
 
-  /** Subtracts `psi sigma` at one point. */
+  /** Subtracts `psi sigma` at one point, and @p around in the direction around the axis. */
   void subtract(unsigned int q, const dealii::SymmetricTensor<2, 2> &sigma, double psi,
-                Stress &stress) const;
+                Stress &stress, double around = 0.) const;
+
+  RowFields antisymmetric_mean() const; ///< int (s_12 - s_21) by all fields
+
+  /** On a face: by fields of @p row, all N_i of the component along it but those of its ends. */
+  std::vector<RowFields> along(unsigned int face, unsigned int row) const;
 
   /**
    * Products in energy of all bubbles of the table, row by row, of @p corners, and of all edges in the order of TractionEnergy times
@@ -134,20 +160,22 @@ public:
   std::vector<double> products(const std::vector<RowFields> &corners,
                                const std::array<double, 4> &scale) const;
 
-  const RowTable &table;
-
-private:
-  /** A field of one row, times a factor. */
+  /** A field of one row. */
   struct Column
   {
     unsigned int row, field;
     double factor;
   };
 
-  /** [part][xi or eta component] of one row at one point. */
-  using Frame = std::array<std::array<double, 2>, n_parts>;
+  /** Those without flux and without data; in a body of revolution divergences of the first row are among them. */
+  std::vector<Column> bubbles() const;
 
-  std::array<Frame, 2> frames_at(const dealii::Tensor<2, 2> &J) const;
+private:
+  /** [part][xi or eta component, or divergence] of one row at one point. */
+  using Frame = std::array<std::array<double, 3>, 5>;
+
+  std::array<Frame, 2> frames_at(const dealii::Tensor<2, 2> &J, double radius) const;
+  unsigned int n_components(unsigned int row) const; ///< that count
   void set_corners(const RowShape &shape);
   std::vector<Column> columns(const std::array<double, 4> &scale) const;
   void add_products(const std::vector<Column> &columns, unsigned int stride, unsigned int n_corners,
@@ -157,10 +185,12 @@ private:
   std::vector<double> at_points(const double *coefficients, unsigned int d) const;
   void add_moments(const std::vector<double> &values, unsigned int d, double *result) const;
 
+  const unsigned int n_weighted;                   ///< parts with 1/w: all on the axis
   const double antisymmetry;                       ///< theta^{1/2} C_K
   std::array<std::vector<Frame>, 2> frames;        ///< by row and point
-  std::array<std::array<double, 3>, 3> compliance; ///< L of C^-1 in xx, yy, xy
+  std::array<std::array<double, 4>, 4> compliance; ///< L of C^-1 in xx, yy, xy and around
   std::vector<double> roots;                       ///< of weights times det DF/h^2
+  std::vector<double> turns;                       ///< w, or 1
   /** By corner: products of `B S`, B = DF there, with what is 1 at one point in one part: as Stress::values. */
   std::vector<std::vector<double>> corner_moments;
   /** Of two corner stresses, the last part and the others: corners x corners. */
@@ -174,7 +204,9 @@ private:
  *
  * so that divergence and tractions are polynomials on the reference cell whatever F is (doc/bound.md). s need not be symmetric:
  * energies are those of its symmetric part, and `theta C_K^2 |s_12 - s_21|^2` beside them. Data belong to such a stress whose
- * antisymmetric part has mean zero if forces and moment are in balance: three conditions `N'r = 0`.
+ * antisymmetric part has mean zero if forces and moment are in balance: three conditions `N'r = 0`. In a body of revolution that mean is
+ * a condition on bubbles, and the force along the axis the only one on data; in a cell on the axis bubbles let the rows vanish there, and
+ * tractions of the faces beside it are zero at their ends.
  */
 class RowElement
 {
@@ -182,30 +214,40 @@ public:
   /** @p table must outlive this object. */
   RowElement(const RowTable &table, const RowShape &shape);
 
-  static constexpr unsigned int n_conditions = 3;
-
   const RowTable &table;
   const RowValues values;
+  const unsigned int n_conditions;
   const std::array<double, 4> scale; ///< RowShape::densities over h
-  std::array<double, 3> lengths;     ///< of the columns of N before they had length 1
+  using Conditions = std::array<double, 5>;
+  Conditions lengths{}; ///< of the columns of N before they had length 1
 
   TractionEnergy energy() const;
 
-  /** Moments `(d, z)` of divergences, (k+1)^2 of each row, with the motions of N: what N' r takes off. */
-  std::array<double, 3> moments(const double *divergence) const;
+  /** The first whose divergence is a datum. */
+  unsigned int first_row() const
+  {
+    return values.is_axisymmetric ? 1 : 0;
+  }
 
-  /** What makes an energy least that has these @p derivatives. */
-  RowFields best_bubbles(const RowFields &derivatives) const;
+  /** Moments `(d, z)` of divergences, (k+1)^2 of each row, with the motions of N: what N' r takes off. */
+  Conditions moments(const double *divergence) const;
+
+  /** What makes an energy least that @p fields has these @p derivatives of. */
+  RowFields best_bubbles(const RowFields &derivatives, const RowFields &fields) const;
 
   /** Those of @p derivatives by tractions with the best bubbles, n_edges. */
-  std::vector<double> reduced(const RowFields &derivatives) const;
+  std::vector<double> reduced(const RowFields &derivatives, const RowFields &fields) const;
 
 private:
   void set_conditions(const RowShape &shape);
+  void set_constraints(const RowShape &shape);
+  void set_ends(unsigned int face_on_axis);
   unsigned int n_bubbles() const
   {
-    return 2 * table.k * table.k + table.corners.size();
+    return bubbles.size() + table.corners.size();
   }
+  std::vector<double> missing(const std::vector<double> &of_bubbles, const RowFields &fields) const;
+  std::vector<double> by_edges(const RowFields &derivatives) const;
   std::vector<double> by_bubbles(const RowFields &derivatives) const;
   void add_corners(const RowShape &shape);
   unsigned int n_edges() const
@@ -216,6 +258,11 @@ private:
   std::vector<double> L, W, G,
       N; ///< of bubbles; L^-1 times bubbles x edges; edges x edges; edges x 3
   std::vector<double> N_divergence; ///< 2 (k+1)^2 x 3
+  const std::vector<RowValues::Column> bubbles;
+  /** What bubbles make zero: by fields; L^-1 by bubbles; what is left by edges. */
+  std::vector<RowFields> constraints;
+  std::vector<double> by_bubbles_of, by_edges_of;
+  dealii::FullMatrix<double> inverse; ///< of products of the second
 
   std::vector<RowFields> corners; ///< each corner's stress less what has its fluxes: bubbles, too
 };

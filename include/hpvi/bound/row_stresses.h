@@ -88,7 +88,14 @@ private:
     std::array<std::vector<double>, 4> tractions;  ///< that the slave exerts
     std::array<double, 4> moment{}; ///< that Lemma 4 of doc/bound.md adds [stress length^2]
     std::array<std::vector<double>, 4> gradients;
-    std::array<std::array<double, 3>, 4> defects;
+    std::array<RowElement::Conditions, 4> defects;
+  };
+
+  /** sigma in the plane, and around the axis of a body of revolution. */
+  struct PointStress
+  {
+    dealii::SymmetricTensor<2, 2> in_plane;
+    double around = 0;
   };
 
   /** psi and its slopes by reference coordinates. */
@@ -100,12 +107,15 @@ private:
 
   void cut(unsigned int cell);
   static bool is_whole(const Part &part);
+  bool has_moment(const Part &part) const;
   bool is_on(const Part &part, unsigned int face) const;
   const JointEdge *cut_edge(unsigned int cell, unsigned int face) const;
   EquilibrationCache::Signature key(const Part &part) const;
   RowShape shape_of(const Part &part) const;
   Hat hat(const Part &part, unsigned int v, const dealii::Point<2> &at) const;
-  std::vector<dealii::SymmetricTensor<2, 2>> sigma(const Part &part, unsigned int n_gauss) const;
+  std::vector<PointStress> sigma(const Part &part, unsigned int n_gauss) const;
+  double around(const Part &part, const PointStress &stress, unsigned int q, const Hat &psi) const;
+  unsigned int data_points(const Part &part) const;
   void add_stress(const Part &part, OfVertices &result) const;
   void add_loads(Part &part, OfVertices &result);
   template <class Load>
@@ -119,7 +129,7 @@ private:
   void set_gradients(const Part &part, OfVertices &data) const;
   void set_cell(unsigned int cell);
   void join_parts();
-  std::vector<dealii::SymmetricTensor<2, 2>> stress_at_points(const Part &part) const;
+  std::vector<PointStress> stress_at_points(const Part &part) const;
   void set_missed_force(Part &part);
   std::vector<std::vector<double>> tractions_of_parts(unsigned int cell,
                                                       const std::vector<double> &tractions) const;
@@ -134,7 +144,7 @@ private:
   std::vector<Cell> cells;
 };
 
-/** Where an initial strain is cut inside a cell, in words; else empty. These stresses know none of its pieces. */
+/** Where an initial strain, or in a body of revolution a body force, is cut inside a cell, in words; else empty. These stresses know none of its pieces. */
 std::string cut_inside_cell(const Solution<2> &solution);
 } // namespace hpvi
 

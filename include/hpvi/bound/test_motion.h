@@ -14,11 +14,12 @@ namespace hpvi
 /** The motion R of a boundary on which its traction does the work that is a resultant. */
 enum class BoundaryMotion
 {
-  x,         ///< R = (1, 0): int T_x
-  y,         ///< R = (0, 1)
-  moment,    ///< R = (-(y - y_c), x - x_c), c the centre of the body
-  normal,    ///< R = n: int T_n
-  tangential ///< R = t: int T_t
+  x,          ///< R = (1, 0): int T_x
+  y,          ///< R = (0, 1)
+  moment,     ///< R = (-(y - y_c), x - x_c), c the centre of the body
+  normal,     ///< R = n: int T_n
+  tangential, ///< R = t: int T_t
+  none        ///< R = 0
 };
 
 /** What is known beforehand of the traction along a direction, beside the loads. */
@@ -38,7 +39,7 @@ enum class TractionKind
  * for w = R on that boundary, as far as its traction is not given, and w = 0 where tractions of others are not. Where two boundaries meet, w is one
  * vector, and what only friction asks of it may be missed: there w falls from that vector to what the boundary wants along
  * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. What a pressure does there is
- * known where contact is open (open_contact.h). Reactions bear no fall.
+ * known where contact is open (open_contact.h), and that of friction by pressure by pressing(). Reactions bear no fall.
  *
  * In the plane, on straight sides.
  */
@@ -69,6 +70,12 @@ public:
   const std::vector<Fall> &falls() const;
 
   /**
+   * Of a fall along friction that knows the pressure, of length @p l: X with `X_n = mu |fall| (1 - s/l)`, mu the largest coefficient
+   * there, and X_t = 0 along contact, so that `int mu_f p |fall| (1 - s/l) ds <= int p X_n`. Has a flaw where what meets there is in the way.
+   */
+  TestMotion pressing(const Fall &fall, double l) const;
+
+  /**
    * What @p boundary asks of w at @p x; the falls have the lengths @p l.
    */
   std::vector<PointCondition<2>> conditions(unsigned int boundary, const dealii::Point<2> &x,
@@ -85,6 +92,8 @@ public:
 private:
   struct Meeting;
   struct Row;
+
+  TestMotion(const TestMotion &other, const Fall &fall); ///< R = 0 but for this fall
 
   dealii::Tensor<1, 2> motion(unsigned int boundary, const dealii::Point<2> &x) const;
   std::vector<Row> rows(unsigned int boundary, const dealii::Point<2> &x) const;

@@ -53,6 +53,7 @@ struct StressEdge
   unsigned int degree = 0; ///< m: normal part in P_{m-2}, tangential part in P_{m-1}
   double length;           ///< between its ends [length]
   bool is_curved = false;
+  bool is_on_axis = false; ///< of a body of revolution: without tractions
   dealii::Tensor<1, 2>
       normal; ///< of the traction and the line between the ends: towards growing xi or eta
   dealii::Tensor<1, 2> tangent;
