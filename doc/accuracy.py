@@ -24,7 +24,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent
 GALLERY = HERE / "accuracy"
-QUIET = ["Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false"]
+QUIET = ["Output/VTU=false", "Output/Contact tables=false"]
 NO_BOUND, BOUND = ["Error/Bound=false"], ["Error/Bound=true"]
 STAGES = "setup assemble factor qp recover estimate decide refine".split()
 PROBLEMS = {"han-6-12": "Example 5.2", "han-6-13": "Example 5.3", "stick-slip": "Stick-slip, exact"}

@@ -21,7 +21,7 @@ FORCE = SLOPE * math.pi * HALF_WIDTH ** 2 / 2
 POISSON = {"upper": 0.3, "lower": 0.2}
 ENERGY = {"upper": 0.133954906582 * 200, "lower": 0.207680549090 * 100}  # times Young's modulus
 BOXES = {"upper": "-2, 0; 2, 2; 6, 3", "lower": "-2, -1; 2, 0; 5, 2"}
-QUIET = {"Output/VTU": "false", "Output/Mesh picture": "false"}
+QUIET = {"Output/VTU": "false"}
 
 CLAMP = {"Boundary lower.bottom/Displacement": "0; 0", "Contact joint/Between": "upper.bottom, lower.top", "Adaptivity/Maximum steps": "24",
          "Adaptivity/Tolerance": "1e-5"}

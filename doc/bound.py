@@ -87,7 +87,7 @@ def method_settings(method, steps, indicator):
     return [f"Adaptivity/Method={method}", "Adaptivity/Start degree=0",
             "Adaptivity/Smoothness reading=plain", "Adaptivity/Maximum degree=12",
             f"Adaptivity/Maximum steps={steps}", "Adaptivity/Maximum unknowns=40000",
-            f"Adaptivity/Indicator={indicator}", "Output/VTU=false", "Output/Mesh picture=false",
+            f"Adaptivity/Indicator={indicator}", "Output/VTU=false",
             "Output/Contact tables=false"]
 
 

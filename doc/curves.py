@@ -64,7 +64,6 @@ subsection Adaptivity
 end
 subsection Output
   set VTU = false
-  set Mesh picture = false
 end
 """
 FLOOR = 5e-8  # the root of what round-off leaves of J

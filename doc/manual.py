@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Write the manual: pages of doc/manual, the commented sources, and what the program says of itself.
 
-manual.py --program build/hpvi --output build/doc
+manual.py --program build/hpvi --output build/doc [--check]
 
-Doxygen makes HTML of them, with MathJax from Debian beside it: no network is needed to read it. Whatever
-Doxygen warns of ends the run.
+Pages are finished where they stand, so that any viewer of Markdown shows them: outputs and tables that they ask for are written into
+doc/manual, between marks, and pictures into doc/figures. That is an exception to the rule that results stay out of the repository;
+with --check the end is an error where one of them was no longer current. Doxygen makes HTML of the same pages, with MathJax from Debian beside it: no network is needed to
+read it. Whatever Doxygen warns of ends the run.
 """
 import argparse
 import csv
@@ -37,8 +39,7 @@ EXAMPLES = {
     ("Boundary NAME", "Contact direction"): "0.1; -1",
     ("Body NAME", "Surfaces"): "liner, shell", ("Contact NAME", "Friction law"): "limited",
     ("Contact NAME", "Gap"): "0.1*x^2", ("Contact NAME", "Closed within"): "0.001", ("Contact NAME", "Friction coefficient"): "0.3", ("Contact NAME", "Slave"): "lower.top",
-    ("Boundary NAME", "Wear coefficient"): "1e-9", ("Contact NAME", "Wear coefficient"): "1e-9",
-    ("Loading", "Until steady"): "0.01", ("Loading", "Maximum cycles"): "50",
+    ("Boundary NAME", "Wear coefficient"): "1e-9",
     ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
     ("Material", "Elasticity"): "orthotropic", ("Material", "Young's moduli"): "11000, 500, 700",
     ("Material", "Poisson's ratios"): "0.4, 0.35, 0.4", ("Material", "Shear moduli"): "700",
@@ -51,9 +52,9 @@ EXAMPLES = {
     ("Solver", "QP maximum multiplications"): "1000", ("Solver", "Diagonal scaling"): "false",
     ("Solver", "Coulomb solver"): "fixed point", ("Solver", "Multiplier degree offset"): "-3",
     ("Solver", "Condition number"): "true", ("Solver", "Threads"): "2", ("Output", "VTU"): "false",
-    ("Output", "Steps"): "last", ("Output", "Mesh picture"): "false",
+    ("Output", "Mesh picture"): "true",
     ("Output", "Contact tables"): "false",
-    ("Output", "Report"): "false", ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
+    ("Output", "Report"): "true", ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
     ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 
@@ -70,6 +71,15 @@ def run(*command, **options):
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}")
     return done.stdout
+
+
+changed = []
+
+
+def renewed(path, text):
+    path.write_text(text)
+    changed.append(path.relative_to(ROOT))
+    print(f"{changed[-1]} has changed")
 
 
 # Prose
@@ -148,16 +158,12 @@ def program_pages(order):
             f"Part {k + 1} of {len(order)} of [the commented program](@ref program): "
             f"`source/{noun}.cc`, declared in `include/hpvi/{noun}.h`.", "",
             commented_source(ROOT / "source" / f"{noun}.cc"), "", ", ".join(around), ""])
-    links = [f"{k}. [{title}](@ref program_{noun.split('/')[1]}), `{noun}`"
-             for k, (noun, title) in enumerate(order, 1)]
-    pages["program"] = linked((PAGES / "program.md").read_text(), PAGES).replace("@LIST@", "\n".join(links))
-    pages["program"] = doxygen_math(pages["program"])
     return pages
 
 
 def named(section):
     """NAME for what a scene names, or for a side."""
-    return re.sub("^(Boundary|Material|Contact|Probe|Body(?! force$)) .*", r"\1 NAME", section)
+    return re.sub("^(Boundary|Material|Contact|Pretension|Probe|Body(?! force$)) .*", r"\1 NAME", section)
 
 
 def scene_examples():
@@ -207,9 +213,9 @@ def code(text):
     return f"`{text}`" if text else ""
 
 
-def entries_page(program):
+def list_of_entries(program):
     examples, lines, last = scene_examples(), [], None
-    seen = set()
+    seen, said = set(), {}
     for section, name, default, comment in assignments(run(program, "--print-parameters")):
         key = (named(section), name)
         if key in seen:
@@ -227,23 +233,29 @@ def entries_page(program):
             sys.exit(f"manual.py: {key[0]}/{name} needs an example, in a scene or in EXAMPLES")
         if key[0] != last:
             anchor = re.sub(r"\W", "_", key[0].lower()) or "scene"
-            lines += ["", f"## {key[0] or 'The scene'} {{#entries_{anchor}}}", ""]
+            lines += ["", f"## {key[0] or 'The scene'} <a id=\"entries_{anchor}\"></a>", ""]
             last = key[0]
-        units = re.findall(r"\[(length|stress|stress/length)\]", comment) if name != "Density" else []
-        facts = [f"default {code(default) or 'empty'}"] + ([f"unit {units[0]}"] if units else [])
-        facts.append(f"example {code(value)}" + (f" in prm/{where}" if where else ""))
-        lines += [f"**{escaped(name)}**: {escaped(comment)}", "", "<span class=\"facts\">"
-                  + "; ".join(facts) + "</span>", ""]
-    text = (PAGES / "entries.md").read_text()
-    return text.replace("@ENTRIES@", "\n".join(lines))
+            alike = []
+        facts = [f"Default {code(default) or 'empty'}", f"example {code(value)}" + (f" in prm/{where}" if where else "")]
+        base, inherits = {"Body NAME": ("Geometry", ""), "Material NAME": ("Material", " Empty: as of the unnamed Material.")}.get(key[0], ("", ""))
+        said[key] = comment
+        if base and comment == said.get((base, name), "") + inherits:
+            if not alike:
+                lines += [alike := [f"As in [{base}](#entries_{base.lower()})" + (", where an empty entry takes its value" if inherits else "") + ":"], ""]
+            alike.append(f"**{escaped(name)}**,")
+            continue
+        place = re.sub(r"\W", "_", name.lower())
+        lines += [f"### {escaped(name)} <a id=\"{anchor}_{place}\"></a>", "", escaped(comment), "", "; ".join(facts) + ".", ""]
+    return "\n".join(line if isinstance(line, str) else " ".join(line)[:-1] + "." for line in lines).strip()
 
 
-def with_results(text, program, directory):
-    """What a page asks for is computed: a scene or a drawing that it says to write is written, `@RUN arguments@` gives way to the
-    command and what it prints, `@RUN 2: arguments@` if it ends with status 2, `@LINES k from "words": arguments@` to k of
-    these lines, `@ROWS NAME: columns; k@` to k rows, evenly spaced, of the last contact table of the run NAME,
-    `@TABLE NAME/FILE.csv: columns@` to the rows of another one, `@JSON NAME: member@` to that member of its summary.json,
-    `@PICTURE NAME/FILE: words@` to a picture that a command has drawn."""
+def finished(text, program, directory, generated):
+    """A page with all that it asks for: what stands between `<!-- @RUN arguments@ -->` and `<!-- end -->`, or in the place of
+    `@RUN arguments@`, is the command and what it prints, in short (`@ALL arguments@`: all of it); a scene or a drawing that the page says to write
+    is written before. Likewise `@RUN 2: arguments@` if it ends with status 2, `@LINES k from "words": arguments@` has k of these lines,
+    `@ROWS NAME: columns; k@` k rows, evenly spaced, of the last contact table of the run NAME, `@TABLE NAME/FILE.csv: columns@` the
+    rows of another one, `@JSON NAME: member@` that member of its summary.json, `@PICTURE NAME/FILE: words@` a picture that a command
+    has drawn, and @p generated has lists by their names. Where nothing has changed but seconds and last digits, the page keeps what it had."""
     def said(arguments, status):
         last = arguments[-1]
         is_own = last.startswith("-") or (directory / last).exists()
@@ -260,45 +272,124 @@ def with_results(text, program, directory):
             sys.exit(f"manual.py: {shlex.join(arguments)} ends with status {done.returncode}\n{done.stdout}")
         return done.stdout.replace(f"{ROOT}/", "").replace(f"{directory}/", "")
 
-    def printed(match):
-        return f"```\n$ ./run {match[2]}\n{said(shlex.split(match[2]), int(match[1] or 0))}```"
+    def printed(what):
+        status, arguments = re.fullmatch(r"(?:(\d): )?(.*)", what).groups()
+        return f"```\n$ ./run {arguments}\n{said(shlex.split(arguments), int(status or 0))}```"
 
-    def excerpt(match):
-        lines = said(shlex.split(match[3]), 0).splitlines()
-        begin = next(k for k, line in enumerate(lines) if match[2] in line)
-        return f"```\n$ ./run {match[3]}\n...\n" + "\n".join(lines[begin:begin + int(match[1])]) + "\n...\n```"
+    def printed_in_short(what):
+        return in_short(printed(what))
+
+    def excerpt(what):
+        number, words, arguments = re.fullmatch(r"(\d+) from \"(.*?)\": (.*)", what).groups()
+        lines = said(shlex.split(arguments), 0).splitlines()
+        begin = next(k for k, line in enumerate(lines) if words in line)
+        return f"```\n$ ./run {arguments}\n...\n" + "\n".join(lines[begin:begin + int(number)]) + "\n...\n```"
 
     def markdown(names, chosen):
         lines = [names, ["---"] * len(names), *([short(row[name]) for name in names] for row in chosen)]
         return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
-    def rows(match):
-        table = table_of(sorted((directory / "output" / match[1]).glob("contact-*.csv"))[-1])
-        return markdown(match[2].split(", "),
-                        [table[round(k * (len(table) - 1) / (int(match[3]) - 1))] for k in range(int(match[3]))])
+    def rows(what):
+        name, columns, number = re.fullmatch(r"(\w+): (.*); (\d+)", what).groups()
+        table = table_of(sorted((directory / "output" / name).glob("contact-*.csv"))[-1])
+        return markdown(columns.split(", "),
+                        [table[round(k * (len(table) - 1) / (int(number) - 1))] for k in range(int(number))])
 
     def table_of(path):
         with path.open() as file:
             return list(csv.DictReader(file))
 
-    def member(match):
-        summary = json.loads((directory / "output" / match[1] / "summary.json").read_text())
-        return f"```{{.json}}\n{json.dumps(summary[match[2]], indent=2)}\n```"
+    def whole_table(what):
+        name, columns = re.fullmatch(r"(\S+): (.*)", what).groups()
+        return markdown(columns.split(", "), table_of(directory / "output" / name))
 
-    def picture(match):
-        name = match[1].replace("/", "-")
-        shutil.copy(directory / "output" / match[1], directory.parent / "pages" / name)
-        return f"![{match[2]}]({name})"
+    def member(what):
+        name, key = re.fullmatch(r"(\w+): (\w+)", what).groups()
+        summary = json.loads((directory / "output" / name / "summary.json").read_text())
+        return f"```json\n{json.dumps(summary[key], indent=2)}\n```"
+
+    def picture(what):
+        name, words = re.fullmatch(r"(\S+): (.*)", what).groups()
+        drawn = (directory / "output" / name).read_text()
+        kept = ROOT / "doc/figures" / name.replace("/", "-")
+        if not kept.exists() or not agree(kept.read_text(), drawn):
+            renewed(kept, drawn)
+        return f"![{words}](../figures/{kept.name})"
+
+    makers = {"RUN": printed_in_short, "ALL": printed, "LINES": excerpt, "ROWS": rows, "TABLE": whole_table, "JSON": member, "PICTURE": picture}
+
+    def made(match):
+        before = match["before"]
+        if match["list"]:
+            now = generated[match["list"]]
+        else:
+            now = makers[match["maker"]](match["what"])
+        mark = match["mark"]
+        return f"<!-- {mark} -->\n\n{before if before is not None and agree(before, now) else now}\n\n<!-- end -->"
 
     directory.mkdir(exist_ok=True)
     for name, scene in re.findall(r"`(\w+\.(?:prm|geo))`:\n\n```\n(.*?)```", text, re.S):
         (directory / name).write_text(scene)
-    text = re.sub(r"^@RUN (?:(\d): )?(.*)@$", printed, doxygen_math(text), flags=re.M)
-    text = re.sub(r"^@LINES (\d+) from \"(.*?)\": (.*)@$", excerpt, text, flags=re.M)
-    text = re.sub(r"^@ROWS (\w+): (.*); (\d+)@$", rows, text, flags=re.M)
-    text = re.sub(r"^@TABLE (\S+): (.*)@$", lambda m: markdown(m[2].split(", "), table_of(directory / "output" / m[1])), text, flags=re.M)
-    text = re.sub(r"^@PICTURE (\S+): (.*)@$", picture, text, flags=re.M)
-    return re.sub(r"^@JSON (\w+): (\w+)@$", member, text, flags=re.M)
+    mark = rf"(?P<mark>@(?:(?P<maker>{'|'.join(makers)}) (?P<what>[^\n]*)|(?P<list>{'|'.join(generated)}))@)"
+    marked = mark.replace("?P<", "?P<marked_")
+    both = re.compile(rf"^<!-- {mark} -->\n\n(?P<before>.*?)\n\n<!-- end -->$|^{marked}$", re.S | re.M)
+
+    def either(match):
+        groups = match.groupdict()
+        if groups["mark"] is None:
+            groups = {name: groups.get(f"marked_{name}") for name in ("mark", "maker", "what", "list", "before")}
+        return made(groups)
+
+    return both.sub(either, text)
+
+
+def in_short(text):
+    """Output of a run with dots in the place of the seconds of stages, and of steps but the first and last two."""
+    lines = re.sub(r"^stage +seconds.*?^total[^\n]*$", "...", text, flags=re.S | re.M).split("\n")
+    steps = [k for k, line in enumerate(lines) if re.match(r" +\d+ +\d", line)]
+    hidden = set(steps[2:-2]) if len(steps) > 6 else set()
+    return "\n".join("   ..." if k == min(hidden) else line for k, line in enumerate(lines) if k not in hidden - {min(hidden, default=0)}) \
+        if hidden else "\n".join(lines)
+
+
+def agree(before, now):
+    """The same but for spaces, seconds, round-off, places (of a symmetric body any of several), and a hundredth of numbers."""
+    number = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+
+    def steady(text):
+        text = re.sub(r"^stage +seconds.*?^total.*?$", "", text, flags=re.S | re.M)
+        text = re.sub(rf"^( +\d+(?: +\S+)+) +\d+ +{number}$", r"\1", text, flags=re.M)  # iterations and seconds of a step
+        text = re.sub(r"^(\S.*= ?\S.*? (?:done|failed) +\S+ +\S+) +\S+", r"\1", text, flags=re.M)  # and of a run of a sweep
+        text = re.sub(rf"Process name: .*|{number} (?:s|seconds|MB|GB)\b|^balance: .*|\bat \([^)]*\)", "", text, flags=re.M)
+        text = re.sub(r"-?\d(?:\.\d+)?e-1[2-9]\b|(?<!\S)-(?!\S)", "0", text)
+        return "\n".join(sorted((" ".join(line.split()) for line in text.splitlines()), key=lambda line: (re.sub(number, "N", line), line)))  # runs end in any order
+    before, now = steady(before), steady(now)
+    words = [" ".join(re.sub(number, " N ", text).split()) for text in (before, now)]
+    numbers = [[float(one) for one in re.findall(number, text)] for text in (before, now)]
+    round_off = max([1e-8, *(1e-11 * abs(one) for one in numbers[1])])
+    return words[0] == words[1] and all(abs(a - b) <= max(0.01 * abs(b), round_off) for a, b in zip(*numbers))
+
+
+def with_places(pages):
+    """Links that any viewer follows, in the place of `@ref`, and anchors that none shows."""
+    where = {anchor: f"{name}.md" for name, text in pages.items()
+             for anchor in re.findall(r"\{#([\w-]+)\}|<a id=\"([\w-]+)\">", text) for anchor in anchor if anchor}
+    where |= {"scenes": "../../prm/README.md", "python": "../python.md", "contributing": "../../CONTRIBUTING.md", "tutorial": "tutorial.md",
+              "architecture": "../architecture.md", "decisions": "../decisions.md", "nouns": "../architecture.md"}
+    where |= {f"program_{noun.split('/')[1]}": f"../../source/{noun}.cc" for noun, _ in reading_order()}
+
+    def link(anchor, page):
+        if anchor not in where:
+            sys.exit(f"manual.py: {page}.md links to {anchor}, which is nowhere")
+        file = where[anchor]
+        is_whole = not (PAGES / file).exists() or "/" in file or file == f"{anchor}.md"
+        return f"](#{anchor})" if file == f"{page}.md" else f"]({file})" if is_whole else f"]({file}#{anchor})"
+
+    result = {}
+    for name, text in pages.items():
+        text = re.sub(r"\]\(@ref ([\w-]+)\)", lambda m, page=name: link(m[1], page), text)
+        result[name] = re.sub(r"^(#+ .*) \{#([\w-]+)\}$", r'\1 <a id="\2"></a>', text, flags=re.M)
+    return result
 
 
 def linked(text, home):
@@ -311,6 +402,10 @@ def linked(text, home):
         path = path.relative_to(ROOT)
         if path == pathlib.Path("prm/README.md"):
             return f"[{words}](@ref scenes)"
+        if path == pathlib.Path("doc/python.md"):
+            return f"[{words}](@ref python)"
+        if path.suffix == ".cc" and str(path.relative_to(path.parts[0]).with_suffix("")) in dict(reading_order()):
+            return f"[{words}](@ref program_{path.stem})"
         if path.parent == pathlib.Path("prm"):
             return f"[{words}](@ref scene_{path.stem.replace('-', '_')})"
         if path.suffix == ".md" and (ROOT / path.parent == PAGES or str(path) in OF_REPOSITORY):
@@ -354,17 +449,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", required=True, type=pathlib.Path)
     parser.add_argument("--output", required=True, type=pathlib.Path)
+    parser.add_argument("--check", action="store_true")
     options = parser.parse_args()
     program, output = options.program.resolve(), options.output.resolve()
     sources = output / "pages"
     shutil.rmtree(output, ignore_errors=True)
     sources.mkdir(parents=True)
 
-    pages = program_pages(reading_order())
-    pages["entries"] = entries_page(program)
-    for name in ("index", "introduction", "unilateral", "coulomb", "materials", "bodies", "drawings", "pairs", "space", "processes", "probes", "paraview",
-                 "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns", "messages"):
-        pages[name] = with_results(linked((PAGES / f"{name}.md").read_text(), PAGES), program, output / "runs")
+    order = reading_order()
+    own = {name: (PAGES / f"{name}.md").read_text() for name in (
+        "index", "introduction", "unilateral", "coulomb", "materials", "shapes", "drawings", "pairs", "space", "processes", "probes", "paraview",
+        "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns", "messages", "entries", "program")}
+    generated = {"ENTRIES": list_of_entries(program), "LIST": "\n".join(
+        f"{k}. [{title}](../../source/{noun}.cc), `{noun}`" for k, (noun, title) in enumerate(order, 1))}
+    own = with_places({name: finished(text, program, output / "runs", generated) for name, text in own.items()})
+    pages = program_pages(order)
+    for name, text in own.items():
+        if (PAGES / f"{name}.md").read_text() != text:
+            renewed(PAGES / f"{name}.md", text)
+        text = re.sub(r"^(#+ .*) <a id=\"([\w-]+)\"></a>$", r"\1 {#\2}", text, flags=re.M)
+        pages[name] = doxygen_math(linked(re.sub(r"<!-- .*? -->\n", "", text), PAGES))
     for name in OF_REPOSITORY:
         pages[pathlib.Path(name).stem.lower()] = of_repository(name)
     pages["nouns"] = rooms.nouns()
@@ -387,6 +491,8 @@ def main():
     (output / "html/mathjax").symlink_to(MATHJAX)
     shutil.copytree(ROOT / "doc/gallery", output / "html/gallery")
     print(f"the manual is {os.path.relpath(output / 'html/index.html')}")
+    if options.check and changed:
+        sys.exit("manual.py: the pages and pictures above were not current; look at the differences and commit them")
 
 
 if __name__ == "__main__":

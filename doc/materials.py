@@ -4,7 +4,7 @@
 
 Runs a block of two materials in three arrangements, and one of an orthotropic material, against overkill reference solutions,
 and writes a chart and tables to doc/materials/ and into doc/materials.md, between its marker comments.
-PYTHONPATH says where the module hpvi is: build.
+PYTHONPATH says where the package hpvi is: build/python.
 """
 import argparse
 import math
@@ -23,7 +23,7 @@ CHART = pathlib.Path(__file__).resolve().parent / PAGE / "chart.csv"
 BLOCK = {"Geometry": {"Lower corner": (-2, -2), "Upper corner": (2, 2), "Subdivisions": (4, 4)},
          "Boundary left/Displacement": (0, 0), "Boundary right/Displacement": (-0.01, 0),
          "Boundary bottom": {"Contact": "bilateral", "Friction bound": 0.03}, "Adaptivity/Tolerance": 0,
-         "Output": {"VTU": False, "Mesh picture": False, "Contact tables": False}}
+         "Output": {"VTU": False, "Contact tables": False}}
 ARRANGEMENTS = {"layers": "1 - abs(y)", "inclusion": "min(1 - abs(x), 1 - abs(y))", "four at a vertex": "x*y"}
 RATIOS = ("1e-3", "1e3", "1e6")
 # E1 over E2 = E3 = 1 and the angle of axis 1; with 1 the material is isotropic.

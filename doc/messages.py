@@ -20,12 +20,12 @@ TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|^\#[^\n]*|R"\((?P<raw>.*?)\)"|"(?P<lit
 # What stands in brackets behind these is said.
 SPEAKERS = {"InputError", "reject", "refuse_row", "refuse_card", "Objection", "fail", "complain", "damaged", "refuse", "NumericalFailure", "MemoryFailure", "OutputFailure",
             "ShapeFlaw", "Flaw", "Problem", "Missing", "InadmissibleContact", "WarningKind"}
-# Why there is no bound, and what names of other programs are called here, are literals of other forms: long ones of these sources.
-ALL_SAID = ("source/bound/error_bound.cc", "source/plane/matching.cc", "source/reader/scene_aliases.cc")
+# Why there is no bound are literals of another form: long ones of these sources.
+ALL_SAID = ("source/bound/error_bound.cc", "source/plane/matching.cc")
 REMEDY = re.compile(r"; (?:add|allow|check|choose|cut|draw|enlarge|give|go on|leave|let|look|lower|make|mend|mesh|move|name|open|prescribe|put|"
                     r"raise|refine|remove|run|save|set|start|support|take|turn|use|wait|write)\b")
-# Texts with a semicolon that ask for nothing, in reports and in what is said of entries.
-NO_MESSAGES = ("source/output/", "source/program/command_line.cc", "source/reader/material_reader.cc")
+# Texts with a semicolon that ask for nothing, in reports and in what is said of entries, and answers to names of other programs.
+NO_MESSAGES = ("source/output/", "source/program/command_line.cc", "source/reader/material_reader.cc", "source/reader/scene_aliases.cc")
 
 
 def literals(code):
@@ -60,7 +60,7 @@ def words(text):
 
 
 def plain(text):
-    return html.unescape(re.sub(r"\\(.)", r"\1", re.sub(r"</?(?:b|t[dr])>", " ", text)))
+    return html.unescape(re.sub(r"\\(.)", r"\1", text.replace("**", " ")))
 
 
 def complaints():
@@ -78,14 +78,14 @@ def complaints():
             if is_said and len(re.findall("[a-z]{2,}", text)) > 1 and said[-1] not in all_words:
                 found.append(f"{name}: doc/manual/messages.md has no row with \"{text}\"")
     said = "\n".join(said)
-    for row in re.findall(r"^(?:> |- (?=[a-z])|<tr>)(.*)", page, re.M):
-        text = plain(re.sub(r"^<td>.*?</td>", "", row))
+    refused = page[page.index("# Refused input"):]
+    for row in re.findall(r"^(?:> |- (?=[a-z]))(.*)", page, re.M) + re.findall(r"^\| (?!entry )[^|]*\| (.*) \|$", refused, re.M):
+        text = plain(row)
         for part in re.split(r"\.\.\.|\bN\b|\(x y\)|[][|;:,()]", text):
             if words(part).strip() and words(part) not in said:
                 found.append(f"doc/manual/messages.md: no source says \"{part.strip()}\" of \"{text.strip()}\"")
-    refused, names = page.index("# Refused input"), page.index("## Names of other programs")
-    for row in re.findall(r"^<tr>.*", page[refused:names], re.M):
-        if "<b>" not in row:
+    for row in re.findall(r"^\| (?!entry ).*", refused, re.M):
+        if "**" not in row:
             found.append(f"doc/manual/messages.md: no remedy in \"{plain(row).strip()}\"; write it behind a semicolon")
     for quoted, prose in re.findall(r"^### .*\n\n((?:>.*\n)+)\n*((?:(?!#).*\n)*)", page, re.M):
         if len(prose.split()) < 6:
@@ -93,7 +93,7 @@ def complaints():
         if not all(";" in line for line in quoted.splitlines() if line != ">") and "**Remedy:**" not in prose:
             found.append(f"{quoted.strip()}: no remedy in it, and the page says none; write **Remedy:**")
     kinds = re.findall(r"^  (\w+),? +///<", (ROOT / "include/hpvi/results/warnings/warnings.h").read_text(), re.M)
-    anchors = re.findall(r"^### .*\{#warning_(\w+)\}$", page, re.M)
+    anchors = re.findall(r"^### .*(?:\{#|<a id=\")warning_(\w+)(?:\}|\"></a>)$", page, re.M)
     for kind in sorted({*kinds} ^ {*anchors}):
         found.append(f"warning {kind}: stands in one of WarningKind and doc/manual/messages.md, as an anchor, alone")
     return found

@@ -13,6 +13,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 
 import matplotlib
@@ -263,8 +264,13 @@ def machine(start):
                 version([PYTHON, "-c", "import getfem; print('v', getfem.getfem_env('version'))"], r"v (\S+)"))
     clock = (f"wall time (load average {LOAD:.1f} at the begin)" if CLOCK == "wall" else
              f"CPU time, **while the machine had other work** (load average {LOAD:.1f}): which lengthens it")
-    return ["hpvi {}, CalculiX {} and GetFEM {}, these two of Debian 12; ".format(*versions) + f"{processor()}, one thread each, {clock}; "
-            f"the fastest of {options.repeat}. Start-up: hpvi {start[HPVI]:.2f} s, Python with GetFEM {start[GETFEM]:.2f} s, CalculiX {start[CALCULIX]:.2f} s."]
+    return wrapped("hpvi {}, CalculiX {} and GetFEM {}, these two of Debian 12; ".format(*versions) + f"{processor()}, one thread each, {clock}; "
+                   f"the fastest of {options.repeat}. Start-up: hpvi {start[HPVI]:.2f} s, Python with GetFEM {start[GETFEM]:.2f} s, "
+                   f"CalculiX {start[CALCULIX]:.2f} s.")
+
+
+def wrapped(text):
+    return textwrap.wrap(text, 118, break_on_hyphens=False, break_long_words=False)
 
 
 def truth_lines(case, rows):
@@ -272,10 +278,10 @@ def truth_lines(case, rows):
     truth = with_errors(case, rows)
     words, ends = CASES[case][4:]
     closest = min((row["force_error"] for row in rows if row["program"] == GETFEM and row["force"] != ""), default=float("nan"))
-    failed = [f"{row['program']}, {row['setting']}, size {row['size']:.0f}" for row in rows if row["force"] == ""]
-    return [f"Compared with {'the closed form' if case in CLOSED else f'hpvi after {BEYOND} steps'}: {words} {truth['force']:.9g}, "
-            f"{ends} {', '.join(f'{end:.7g}' for end in truth['ends'])}. GetFEM comes as close to that force as {closest:.1e}."
-            + (f" No solution, or none within {LONGEST} s: {'; '.join(failed)}." if failed else "")]
+    failed = [f"- {row['program']}, {row['setting']}, size {row['size']:.0f}" for row in rows if row["force"] == ""]
+    compared = f"Compared with {'the closed form' if case in CLOSED else f'hpvi after {BEYOND} steps'}: {words} {truth['force']:.9g}, " \
+        f"{ends} {', '.join(f'{end:.7g}' for end in truth['ends'])}. GetFEM comes as close to that force as {closest:.1e}."
+    return wrapped(compared) + (["", f"No solution, or none within {LONGEST} s:", "", *failed] if failed else [])
 
 
 def start_up_table():

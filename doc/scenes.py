@@ -10,6 +10,7 @@ scenes.py --write | --check
 import pathlib
 import re
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GALLERY = ROOT / "doc/manual/gallery.md"
@@ -20,12 +21,12 @@ SPACE = "space"
 GROUPS = {
     "Contact": ("none", "bilateral", "unilateral", "tangential", "with a gap", "along a direction", "of several bodies, unilateral",
                 "of several bodies, bilateral", "of several bodies, tangential", "of several bodies, tied", "several contact boundaries"),
-    "Friction": ("none", "Tresca", "Coulomb", "limited", "cohesive"),
+    "Friction": ("none", "Tresca", "Coulomb", "limited", "cohesive", "by pressure"),
     "Body": ("box", "quadrilateral", "ring sector", "half disc", "plate with hole", "file", "several bodies", "curved edges",
              "body of revolution", "plane stress", "plane strain", SPACE),
     "Material": ("several materials", "orthotropic", "nearly incompressible", "weight", "thickness", "initial strain", "heat"),
     "Supports": ("prescribed displacement", "plane of symmetry", "elastic foundation", "rigid plate", "contact and friction alone"),
-    "Loads": ("traction", "pressure", "force per volume", "parts of sides", "load history"),
+    "Loads": ("traction", "pressure", "force per volume", "parts of sides", "load history", "bolt that is tightened"),
     "Results": ("guaranteed bound", "bound by the coupling", "closed form", "probes")}
 
 
@@ -82,6 +83,8 @@ class Scene:
             bound, coefficient = (own.get(name, "0") != "0" for name in ("Friction bound", "Friction coefficient"))
             if bound and coefficient:
                 laws.add(own.get("Friction law"))
+            elif coefficient and re.search(r"\bp\b", own["Friction coefficient"]):
+                laws.add("by pressure")
             elif bound or coefficient:
                 laws.add("Tresca" if bound else "Coulomb")
         return laws or {"none"}
@@ -114,7 +117,8 @@ class Scene:
     def loads(self, _):
         said = {"traction": self.values("Boundary", "Traction"), "pressure": self.values("Boundary", "Pressure"),
                 "force per volume": [value for value in self.values("Body", "Expression")] + self.values("Body", "Gravity"),
-                "parts of sides": self.values("Boundary", "On"), "load history": self.values("Loading", "Steps")}
+                "parts of sides": self.values("Boundary", "On"), "load history": self.values("Loading", "Steps"),
+                "bolt that is tightened": self.values("Pretension", "Force")}
         return {name for name, is_said in said.items() if is_said}
 
     def results(self, has_bound):
@@ -137,21 +141,22 @@ def page(pictures, anchor=""):
     all_scenes = scenes()
     link = (lambda name: f"[{name}](#{name})") if not anchor else (lambda name: f"[{name}](@ref scene_{name.replace('-', '_')})")
     lines = [f"# Scenes by what they show{anchor}", "",
-             "Each scene of prm/ is a text with its reasons in comments. Take the one that is nearest to your problem, copy it, change it: "
-             "`hpvi --validate` says what it says, `hpvi --picture` draws it.", ""]
+             "Each scene of prm/ is a text with its reasons in comments. Copy the one nearest to your problem and change it.",
+             "`hpvi --validate` describes a scene in words, and `hpvi --picture` draws it.", ""]
     for group, names in GROUPS.items():
         lines += [f"**{group}**", ""]
         for name in names:
             ones = [link(scene.name) for scene in all_scenes if name in scene.shows[group]]
             if ones:
-                lines.append(f"- {name}: {', '.join(ones)}")
+                lines.append(textwrap.fill(f"- {name}: {', '.join(ones)}", 118, subsequent_indent="  ", break_on_hyphens=False,
+                                           break_long_words=False))
         lines.append("")
     for scene in all_scenes:
         mark = f" {{#scene_{scene.name.replace('-', '_')}}}" if anchor else ""
         what = "; ".join(f"{group.lower()}: {', '.join(scene.shows[group])}" for group in GROUPS if scene.shows[group])
         images = [f'<img src="{pictures}{scene.name}-scene.svg" width="400" alt="what {scene.name} says">'] * (not scene.in_space) \
             + [f'<img src="{pictures}{scene.name}.png" width="330" alt="{scene.name}">']
-        lines += [f"## {scene.name}{mark}", "", scene.words[0].upper() + scene.words[1:] + ".", "", " ".join(images), "", what + ".", "",
+        lines += [f"## {scene.name}{mark}", "", textwrap.fill(scene.words[0].upper() + scene.words[1:] + ".", 118, break_on_hyphens=False), "", " ".join(images), "", textwrap.fill(what + ".", 118, break_on_hyphens=False), "",
                   f"    ./run prm/{scene.name}.prm", ""]
     return "\n".join(lines)
 
@@ -162,22 +167,18 @@ def readme():
 
 
 def gallery():
-    """doc/manual/gallery.md with the pictures of all scenes: two of the plane in a row, each beside what it says, or two in space."""
-    def rows(cells):
-        return ["<tr>\n" + "\n".join(cells[k:k + 2]) + "\n</tr>" for k in range(0, len(cells), 2)]
+    """doc/manual/gallery.md with the results of all scenes: four of the plane in a row, or two in space."""
+    def rows(cells, n):
+        return ["<tr>\n" + "\n".join(cells[k:k + n]) + "\n</tr>" for k in range(0, len(cells), n)]
 
     def solved(name, width):
         return f'<td><a href="../../prm/{name}.prm"><img src="../gallery/{name}.png" width="{width}" alt="{name}"></a></td>'
 
-    def said(name):
-        picture = f"../gallery/{name}-scene.svg"
-        return f'<td><a href="{picture}"><img src="{picture}" width="225" alt="what {name} says"></a></td>\n'
-
-    plane = [said(scene.name) + solved(scene.name, 185) for scene in scenes() if not scene.in_space]
+    plane = [solved(scene.name, 200) for scene in scenes() if not scene.in_space]
     space = [solved(scene.name, 405) for scene in scenes() if scene.in_space]
     before, rest = GALLERY.read_text().split(BEGIN)
-    table = ["<table>", *rows(plane), "</table>", "", "In space, seen from below; beside the body its contact, with the friction on it:", "",
-             "<table>", *rows(space), "</table>", ""]
+    table = ["<table>", *rows(plane, 4), "</table>", "", "These scenes in space are seen from below. Beside the body is its contact, with the friction on it:", "",
+             "<table>", *rows(space, 2), "</table>", ""]
     return before + BEGIN + "\n" + "\n".join(table) + "\n" + END + rest.split(END)[1]
 
 

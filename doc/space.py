@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside
 GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, where the primal path
-overtakes the reduced one in the plane, and what Coulomb's law takes. Runs that are there already are not repeated; --without million leaves some out;
+overtakes the reduced one in the plane, and what Coulomb's law takes, and coarse meshes of many cells. Runs that are there already are not repeated; --without million leaves some out;
 --large measures ten and thirty million unknowns instead, which wants 24 GB that are free; --draw runs nothing and draws the charts from the tables of doc/space."""
 import argparse
 import csv
@@ -24,7 +24,7 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=80000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust"])
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse"])
 parser.add_argument("--large", action="store_true", help="ten and thirty million unknowns, and the speed-up at millions; nothing else")
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
@@ -182,6 +182,29 @@ def large():
     print("speed-up: wall {:.2f}".format(table[2][-1] / table[3][-1]))
 
 
+COARSE = {4: 4, 8: 3, 16: 2, 32: 1, 58: 1}  # cells along an edge of the coarse cube, meshes of the run
+
+
+def coarse():
+    """A cube on a rough floor, refined from coarse meshes of 64 to 2e5 cells: seconds and memory of whole runs over the cells."""
+    table = []
+    for n, meshes in COARSE.items():
+        last = run(f"coarse-{n}", "doc/space/cube.prm", **{"Geometry/Subdivisions": f"{n}, {n}, {n}",
+                                                           "Adaptivity/Maximum steps": meshes})[-1]
+        table.append([n ** 3, meshes, int(last["dofs_free"]), int(last["newton_steps"]), int(last["newton_cg"]),
+                      round(last["lagrangian"], 12), round(last["peak_memory"] / 1e9, 3), round(last["run_cpu"], 1)])
+    write("coarse.csv", ["coarse_cells", "meshes", "dofs_free", "newton_steps", "newton_cg", "lagrangian", "gigabytes", "cpu_seconds"],
+          table)
+    draw_coarse()
+
+
+def draw_coarse():
+    rows = read("coarse.csv")
+    chart("coarse.png", "cells of the coarse mesh [-]", "per million unknowns",
+          {"CPU time of a run [s]": ([(row["coarse_cells"], 1e6 * row["cpu_seconds"] / row["dofs_free"]) for row in rows], 0, (0, 12)),
+           "memory [GB]": ([(row["coarse_cells"], 1e6 * row["gigabytes"] / row["dofs_free"]) for row in rows], 1, (0, 10))})
+
+
 def speedup():
     table = []
     for n in (1, 2):
@@ -271,6 +294,7 @@ if options.draw:
     draw_million()
     draw_crossover()
     draw_coulomb()
-for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust):
+    draw_coarse()
+for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse):
     if not options.draw and part.__name__ not in options.without:
         part()

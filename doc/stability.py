@@ -28,7 +28,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent
 GALLERY = HERE / "stability"
-QUIET = ["Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false"]
+QUIET = ["Output/VTU=false", "Output/Contact tables=false"]
 EXAMPLES = {"han-6-12": "Example 5.2", "han-6-13": "Example 5.3"}
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8a5a00",
            "#777777", "#9400d3"]
@@ -154,8 +154,8 @@ def plain(value, digits=2):
 
 
 def ended(run):
-    """The exit status, and the message if it is not 0."""
-    return run.status + (": " + run.message.replace("|", "\\|") if run.message else "")
+    """The exit status, and the message without its remedy if it is not 0."""
+    return run.status + (": " + re.sub("; [a-z].*", "", run.message).replace("|", "\\|") if run.message else "")
 
 
 def warned(run, pattern):
