@@ -4,7 +4,7 @@
 between rooms than there were; the map has every room, at most 150 lines of 120 characters, names files that are there, and finds five
 of them by what they are; each file says in its first comment what it is; CMakeLists.txt builds every source; moduli and corners are
 asked for only where their meaning is known; doc/reliability.md names every source that asks for a function of the scene, with as many
-places as it has here; and all files, commands and targets that README.md and CONTRIBUTING.md name are there."""
+places as it has here; all files, commands and targets that README.md and CONTRIBUTING.md name are there; and files that tell the version agree."""
 import pathlib
 import re
 import sys
@@ -37,14 +37,14 @@ EVALUATIONS = {
     "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
     "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 6,
     "source/plane/contact_numbering.cc": 6, "source/plane/static_admissibility.cc": 1, "source/plane/elastic_system.cc": 2,
-    "source/plane/initial_stress.cc": 3, "source/plane/missed_loads.cc": 1,
-    "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 2,
+    "source/plane/initial_stress.cc": 4, "source/plane/missed_loads.cc": 1,
+    "source/plane/pretension_force.cc": 2, "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 2,
     "source/bound/data_error.cc": 2, "source/bound/displacement_lift.cc": 1, "source/bound/joint_lift.cc": 1,
     "source/bound/joint_tractions.cc": 2, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":
-    1, "source/bound/row_stresses.cc": 4, "source/results/contact_residuals.cc": 1,
+    1, "source/bound/row_stresses.cc": 6, "source/results/contact_residuals.cc": 1,
     "source/results/contact_state.cc": 2, "source/results/elastic_strain.cc": 1,
     "source/results/residual_estimator.cc": 4, "source/results/true_error.cc": 3, "source/results/unseen_contact.cc":
-    2, "source/bound/open_contact.cc": 1, "source/bound/stress_work.cc": 1, "source/bound/test_motion.cc": 1,
+    2, "source/bound/open_contact.cc": 1, "source/bound/stress_work.cc": 1, "source/bound/test_motion.cc": 2,
     "source/space/primal_space.cc": 3, "source/space/primal_system.cc": 1, "source/space/support_constraints.cc": 1,
     "source/space/contact_statics.cc": 1, "source/space/load_check.cc": 1, "source/space/load_work.cc": 1,
     "source/space/primal_field.cc": 1, "source/space/nodal_forces.cc": 1, "source/space/past_state.cc": 1,
@@ -71,6 +71,11 @@ def named_problems(page):
 
 
 problems += named_problems("CONTRIBUTING.md") + named_problems("README.md")
+version = re.search(r"^project\(hpvi VERSION (\S+)", CMAKE, re.M)[1]
+for name, pattern in (("CITATION.cff", r"^version: (\S+)"), (".zenodo.json", r'^  "version": "(.*)"'), ("CHANGELOG.md", r"^## (\d\S+), "),
+                      ("doc/example/CMakeLists.txt", r"find_package\(hpvi (\S+)")):
+    if not (version + ".").startswith(re.search(pattern, (ROOT / name).read_text(), re.M)[1] + "."):
+        problems.append(f"{name} is of another version than {version}, that of CMakeLists.txt")
 tested = set(re.findall(r"`(\w+)`", "".join(re.findall(r"^\| (`\w+`(?:, `\w+`)*) \|", (ROOT / "CONTRIBUTING.md").read_text(), re.M))))
 for folder in tested ^ {path.name for path in (ROOT / "tests").iterdir() if path.is_dir() and path.name != "__pycache__"}:
     problems.append(f"tests/{folder} is no folder, or has no row in CONTRIBUTING.md")

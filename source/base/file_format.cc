@@ -43,7 +43,12 @@ std::string FileFormat::read(std::istream &in, const std::string &file) const
 {
   std::string format, sum;
   if (!std::getline(in, format) || format != first_line)
-    reject(file, "does not begin with \"" + first_line + "\"");
+  {
+    const std::string any_format = first_line.substr(0, first_line.rfind(' '));
+    reject(file, "does not begin with \"" + first_line + "\"" +
+                     (format.rfind(any_format, 0) == 0 ? ": another version of hpvi has written it"
+                                                       : ""));
+  }
   std::getline(in, sum);
   const std::string content{std::istreambuf_iterator<char>(in), {}};
   if (sum != checksum(content))

@@ -12,6 +12,7 @@
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/driver/claims.h>
 #include <hpvi/driver/column_width.h>
+#include <hpvi/driver/friction_check.h>
 #include <hpvi/driver/limits.h>
 #include <hpvi/driver/marking.h>
 #include <hpvi/driver/strides.h>
@@ -19,6 +20,7 @@
 #include <hpvi/driver/threads.h>
 #include <hpvi/plane/global_cell_indices.h>
 #include <hpvi/plane/negligible_solution.h>
+#include <hpvi/plane/pretension_force.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/checks/rejection.h>
 
@@ -290,6 +292,7 @@ void AdaptiveSolver<dim>::estimate_error()
     energies = backend->energies();
   }
   check_numbers(scene, backend->field().largest_displacement(), energies);
+  check_friction_by_pressure(backend->field());
   if (const auto reduced = backend->reduced())
     check_algebraic_error(reduced->algebraic, negligible_energy(scene));
   history.push_back(past_step());
@@ -531,7 +534,7 @@ StepReport<dim> AdaptiveSolver<dim>::report()
   }
   const PastStep<dim> &past = history.back();
   StepReport<dim> step{static_cast<unsigned int>(history.size()),
-                       scene,
+                       backend->scene,
                        field,
                        backend->size(),
                        estimate,
@@ -559,6 +562,18 @@ void AdaptiveSolver<dim>::add_results(StepReport<dim> &step)
   StageTimer timer(backend->times.recover);
   step.equilibrium = equilibrium(scene, backend->nodal_forces(), backend->communicator);
   step.forces = resultants(scene, step.equilibrium, step.contact);
+  if constexpr (dim == 2)
+    if (step.reduced && !step.scene.pretensions.empty())
+    {
+      const std::vector<double> forces = pretension_forces(step.solution());
+      for (unsigned int k = 0; k < forces.size(); ++k)
+      {
+        Resultant<dim> &row = step.forces.emplace_back();
+        row.name = step.scene.pretensions[k].name;
+        row.kind = ForceKind::pretension;
+        row.normal.value = forces[k];
+      }
+    }
   step.probes = probe_values(step.field);
   step.probe_lines = probe_lines(step.field);
 }
@@ -570,13 +585,11 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
   take_bound(known_bound(), step, history.back());
   // Forces and means need displacements on a mesh of their own, and the body of a step is that of its degrees.
   const bool is_curved = scene.geometry.has_curves(),
-             has_energy = step.bound && step.bound->kind == BoundKind::energy,
-             is_bounded = has_energy && scene.intervals && !is_curved;
-  step.no_intervals =
-      is_bounded                  ? backend->bound_forces(*step.bound, step.forces)
-      : step.bound && !has_energy ? "Coulomb's law minimises no energy, and intervals need one"
-      : step.bound && is_curved   ? "curved edges change with the degrees of their cells"
-                                  : step.no_bound;
+             is_bounded = step.bound && scene.intervals && !is_curved;
+  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces)
+                      : step.bound && is_curved
+                          ? "curved edges change with the degrees of their cells"
+                          : step.no_bound;
   if (is_bounded)
     mean_intervals.set(step);
   compare_claims(step);
@@ -588,7 +601,9 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
 template <int dim>
 void AdaptiveSolver<dim>::compare_claims(StepReport<dim> &step)
 {
-  if (scene.geometry.has_curves()) // each step has a body of its own
+  const bool is_tightened =
+      !backend->scene.pretensions.empty() && !backend->scene.pretensions.front().is_fixed;
+  if (scene.geometry.has_curves() || is_tightened) // each step has a body or a bolt of its own
     return;
   PastStep<dim> &past = history.back();
   past.claims = claims_of(step, backend->field().largest_displacement());

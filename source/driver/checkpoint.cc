@@ -130,7 +130,7 @@ void write_claims(std::ostream &out, const Claims &claims, const std::string &co
 
 const FileFormat &run_state_format()
 {
-  static const FileFormat format("run state", 9,
+  static const FileFormat format("run state", 10,
                                  "go on with the scene of that run, or begin a new one");
   return format;
 }
@@ -356,6 +356,7 @@ void RunState<dim>::write(std::ostream &out) const
   content << '\n';
   write_loads(content, loads.value_or(FinishedLoads()));
   write_values(content, "motion", values.motion);
+  write_values(content, "shortenings", values.shortenings);
   write_values(content, "u", values.u);
   write_values(content, "z", values.z);
   format().write(out, content.str());
@@ -393,6 +394,7 @@ RunState<dim> RunState<dim>::read(std::istream &in, const std::string &name)
   if (const FinishedLoads loads = reader.loads(); loads.load.number > 0)
     state.loads = loads;
   state.values.motion = reader.values("motion");
+  state.values.shortenings = reader.values("shortenings");
   state.values.u = reader.values("u");
   state.values.z = reader.values("z");
   return state;

@@ -92,14 +92,13 @@ template <int dim>
 Claims claims_of(const StepReport<dim> &step, const double displacement)
 {
   Claims result;
+  if (!step.bound || step.bound->kind != BoundKind::energy)
+    return result;
   const std::string where = "in step " + text(step.number);
-  if (step.bound && step.bound->kind == BoundKind::energy)
-  {
-    const double b = step.scene.thickness, J = step.energies.energy;
-    result.push_back({"the least energy", where, b * (J - step.bound->energy_below),
-                      b * (J + step.bound->energy_above),
-                      floor_of_energies * b * std::pow(step.energies.norm, 2)});
-  }
+  const double b = step.scene.thickness, J = step.energies.energy;
+  result.push_back({"the least energy", where, b * (J - step.bound->energy_below),
+                    b * (J + step.bound->energy_above),
+                    floor_of_energies * b * std::pow(step.energies.norm, 2)});
   ForceClaims<dim> forces(step, result);
   for (const Resultant<dim> &row : step.forces)
     forces.add(row);

@@ -44,6 +44,17 @@ double largest_slip(const StepReport<dim> &step)
 }
 } // namespace
 
+bool are_steady(const std::vector<LoadCycle> &cycles, const double share)
+{
+  if (cycles.size() < 2)
+    return false;
+  double largest = 0;
+  for (const LoadCycle &cycle : cycles)
+    largest = std::max(largest, cycle.dissipated);
+  // Where a contact shakes down each cycle takes a part of the one before, however late it is.
+  return cycles.back().change <= share || cycles.back().dissipated <= share * largest;
+}
+
 template <int dim>
 struct LoadHistory<dim>::Evolution
 {
@@ -205,9 +216,13 @@ void LoadHistory<dim>::Evolution::add_warnings(StepReport<dim> &report) const
   if (load.is_last)
     report.warnings = joined(
         report.warnings,
-        dissipation_warnings(load.dissipated, load.trapezoidal, std::abs(load.work) + load.stored),
-        steady_warnings(finished.so_far.cycles.empty() ? 0. : finished.so_far.cycles.back().change,
-                        scene.loading.until_steady));
+        scene.has_friction() ? dissipation_warnings(load.dissipated, load.trapezoidal,
+                                                    std::abs(load.work) + load.stored)
+                             : Warnings(), // what joints do between their points is none
+        scene.loading.until_steady == 0 ||
+                are_steady(finished.so_far.cycles, scene.loading.until_steady)
+            ? Warnings()
+            : steady_warnings(finished.so_far.cycles.back().change, scene.loading.until_steady));
 }
 
 /** The last step of a load step: what the load step did, and what the next one starts from. */
@@ -255,7 +270,7 @@ bool LoadHistory<dim>::Evolution::is_over() const
     return false;
   const std::vector<LoadCycle> &cycles = finished.so_far.cycles;
   return loading.until_steady == 0 || cycles.size() >= loading.maximum_cycles ||
-         (!cycles.empty() && cycles.back().change <= loading.until_steady);
+         are_steady(cycles, loading.until_steady);
 }
 
 /** At the end of a cycle, what it did. */

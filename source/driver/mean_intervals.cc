@@ -193,7 +193,9 @@ void MeanIntervals<2>::set(StepReport<2> &step)
     if (!probe.is_mean())
       continue;
     std::string flaw;
-    for (unsigned int c = 0; c < 2; ++c)
+    if (scene.is_axisymmetric())
+      flaw = "means in a body of revolution have the weight of the radius";
+    for (unsigned int c = 0; c < 2 && flaw.empty(); ++c)
     {
       const Dual &of_mean = dual(value.probe, c);
       if (!of_mean.why.empty())

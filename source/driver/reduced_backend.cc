@@ -15,6 +15,7 @@
 #include <hpvi/plane/matching.h>
 #include <hpvi/plane/missed_loads.h>
 #include <hpvi/plane/negligible_solution.h>
+#include <hpvi/plane/pretension_force.h>
 #include <hpvi/plane/static_admissibility.h>
 #include <hpvi/results/solution_field.h>
 
@@ -111,22 +112,51 @@ LoadedMotions<dim> loaded_motions(const Discretisation<dim> &discretisation)
 }
 } // namespace
 
+namespace
+{
+/** For a step of its own, where bolts are tightened: their shortenings are a result. */
+template <int dim>
+std::shared_ptr<Scene<dim>> own_copy(const Scene<dim> &scene)
+{
+  return scene.pretensions.empty() ? nullptr : std::make_shared<Scene<dim>>(scene);
+}
+
+/** The same for the load step after that of @p last, whose bolts stay as they are. */
+template <int dim>
+std::shared_ptr<Scene<dim>> own_copy(const Scene<dim> &scene, const Scene<dim> &last)
+{
+  const auto result = own_copy(scene);
+  if constexpr (dim == 2)
+    for (unsigned int k = 0; result && k < result->pretensions.size(); ++k)
+    {
+      set_shortening(*result, k, last.pretensions[k].shortening);
+      result->pretensions[k].is_fixed = true;
+    }
+  return result;
+}
+} // namespace
+
 // @sect3{What steps share}
 //
 // The mesh is a shared pointer to a constant: a solution that a user keeps also keeps the mesh it lives on.
 template <int dim>
-ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, std::shared_ptr<Kept> all_kept)
-    : Backend<dim>(scene, MPI_COMM_SELF), kept(std::move(all_kept)),
-      smoothness(scene.adaptivity.reading)
+ReducedBackend<dim>::ReducedBackend(const Scene<dim> &given_scene, std::shared_ptr<Scene<dim>> own,
+                                    std::shared_ptr<Kept> all_kept)
+    : Backend<dim>(own ? *own : given_scene, MPI_COMM_SELF), given(given_scene),
+      own_scene(std::move(own)), kept(std::move(all_kept)), smoothness(scene.adaptivity.reading)
 {
   prepare_blas();
+  if (own_scene && !own_scene->pretensions.front().is_fixed)
+    search.emplace(scene);
 }
 
 template <int dim>
 ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
-    : ReducedBackend(scene,
+    : ReducedBackend(scene, own_copy(scene),
                      std::make_shared<Kept>(scene, std::make_shared<const ShapeTables<dim>>()))
 {
+  if (search)
+    shorten(search->first());
   const auto coarse = std::make_shared<Triangulation<dim>>();
   make_mesh(scene, *coarse);
   cell_degrees.assign(coarse->n_active_cells(), scene.adaptivity.start_degree);
@@ -139,7 +169,8 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
 template <int dim>
 ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &last,
                                     const PastSlip<dim> &past)
-    : ReducedBackend(scene, std::make_shared<Kept>(scene, last.kept->tables))
+    : ReducedBackend(scene, own_copy(scene, last.scene),
+                     std::make_shared<Kept>(scene, last.kept->tables))
 {
   transfer_from(last);
   look_at_loads(1);
@@ -154,8 +185,9 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &las
 // The bound of one step and the solution of the next touch nothing in common but what steps share.
 template <int dim>
 ReducedBackend<dim>::ReducedBackend(ReducedBackend &here, const Refinement &refinement)
-    : ReducedBackend(here.scene, here.kept)
+    : ReducedBackend(here.given, own_copy(here.scene), here.kept)
 {
+  search = here.search;
   transfer_from(here);
   loads = here.loads;
   finer_loads = here.finer_loads;
@@ -181,7 +213,7 @@ void ReducedBackend<dim>::transfer_from(const ReducedBackend &last)
 template <int dim>
 void ReducedBackend<dim>::look_at_loads(const unsigned int finer)
 {
-  loads = std::make_shared<const LoadRules<dim>>(scene, *mesh, kept->tables, finer);
+  loads = std::make_shared<const LoadRules<dim>>(given, *mesh, kept->tables, finer);
   finer_loads = finer;
 }
 
@@ -286,13 +318,27 @@ template <int dim>
 void ReducedBackend<dim>::solve()
 {
   const ElasticSystem<dim> &system = discretisation->system;
-  const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   check_finite("the load vector", std::accumulate(system.f.begin(), system.f.end(), 0.),
                system.f.linfty_norm());
   {
     StageTimer timer(times.factor);
     factor();
   }
+  solve_program();
+  if (search)
+    tighten();
+  if (needs_factor_again())
+    kept_factor = std::make_unique<LinearSolver>(std::move(factored->solver));
+  if (kept_factor || !is_load_step)
+    factored.reset();
+}
+
+/** With the factor and the loads at hand. */
+template <int dim>
+void ReducedBackend<dim>::solve_program()
+{
+  const ElasticSystem<dim> &system = discretisation->system;
+  const ContactSpace<dim> &contact_space = discretisation->spaces->contact_space;
   begin(contact_space.n_multipliers() > 0
             ? "finding stick and slip for " + std::to_string(contact_space.n_multipliers()) +
                   " multipliers"
@@ -313,11 +359,69 @@ void ReducedBackend<dim>::solve()
   if (drop_round_off(*discretisation, algebraic.energy_product, program.z, u))
     algebraic = {};
   keep_warm_start(program.z, motions ? motions->in_basis(program.motion) : Vector<double>());
-  if (needs_factor_again())
-    kept_factor = std::make_unique<LinearSolver>(std::move(factored->solver));
-  if (kept_factor || !is_load_step)
-    factored.reset();
   take(std::move(u), program.z);
+}
+
+// @sect3{Bolts}
+//
+// How much a bolt is shortened is found from outside: each try is a problem with another initial strain, of which the factor
+// stays as it is, and contact begins where it was. Of one bolt two tries are exact where nothing opens or slips.
+template <int dim>
+void ReducedBackend<dim>::tighten()
+{
+  search->begin();
+  for (;;)
+  {
+    const std::vector<double> next = search->next(scene, pretension_forces(*solution));
+    if (next.empty())
+      return;
+    begin("tightening bolts");
+    shorten(next);
+    solve_program();
+  }
+}
+
+template <int dim>
+void ReducedBackend<dim>::shorten(const std::vector<double> &shortenings)
+{
+  for (unsigned int k = 0; k < shortenings.size(); ++k)
+    set_shortening(*own_scene, k, shortenings[k]);
+  if (!discretisation)
+    return;
+  {
+    StageTimer timer(times.assemble);
+    discretisation =
+        std::make_unique<const Discretisation<dim>>(scene, discretisation->spaces, kept->elements);
+  }
+  StageTimer timer(times.factor);
+  if (factored)
+    factored->reduction.set_load(discretisation->system.f, discretisation->contact_rows.prescribed);
+}
+
+/** `|int (sigma(u) - sigma(u_N)) : E| <= |u - u_N|_a |E|`, u at the shortening of the step. */
+template <int dim>
+void ReducedBackend<dim>::bound_pretensions(const ErrorBound &bound,
+                                            std::vector<Resultant<dim>> &forces) const
+{
+  for (const Pretension<dim> &cut : scene.pretensions)
+    for (Resultant<dim> &row : forces)
+      if (row.kind == ForceKind::pretension && row.name == cut.name)
+        row.normal.interval =
+            Interval{row.normal.value, bound.total * std::sqrt(layer_stiffness(scene, cut)) +
+                                           1e-13 * layer_stiffness(scene, cut) * cut.shortening};
+}
+
+/** And what the search has learnt: a run that goes on finds the same last bits. */
+template <int dim>
+Vector<double> ReducedBackend<dim>::shortenings() const
+{
+  std::vector<double> result;
+  for (const Pretension<dim> &cut : scene.pretensions)
+    result.push_back(cut.shortening);
+  if (search)
+    for (const double slope : search->learnt())
+      result.push_back(slope);
+  return Vector<double>(result.begin(), result.end());
 }
 
 /** Will the bound solve with it once more? */
@@ -335,7 +439,9 @@ bool ReducedBackend<dim>::needs_factor_again() const
 template <int dim>
 void ReducedBackend<dim>::take(Vector<double> u, const Vector<double> &z)
 {
-  solution = std::make_unique<const Solution<dim>>(scene, discretisation->spaces, std::move(u), z);
+  auto taken = std::make_unique<Solution<dim>>(scene, discretisation->spaces, std::move(u), z);
+  taken->own_scene = own_scene;
+  solution = std::move(taken);
   missed_displacements = within_reach(missed_displacements, *solution);
   values_at_points = std::make_unique<const SolutionField<dim>>(*solution);
   known_forces.reset();
@@ -483,6 +589,16 @@ bool ReducedBackend<dim>::restore(const SolutionValues &values)
     build();
   }
   levels.pop_back();
+  if (own_scene)
+  {
+    const unsigned int n = scene.pretensions.size();
+    if (values.shortenings.size() < n)
+      return false;
+    shorten({values.shortenings.begin(), values.shortenings.begin() + n});
+    Vector<double> slopes(values.shortenings.begin() + n, values.shortenings.end());
+    if (search)
+      search.emplace(scene, slopes);
+  }
   keep_warm_start(values.z, values.motion);
   kept->resultant_intervals.begin_with(levels);
   take(values.u, values.z);

@@ -121,21 +121,24 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
   { return box.unit_to_real(Point<2>(gauss.point(a)[0], gauss.point(b)[0])); };
   const auto strains_at = [&](const QGauss<1> &gauss)
   {
-    std::array<FullMatrix<double>, 3> values;
+    std::array<FullMatrix<double>, 4> values; // the last around the axis
     values.fill(FullMatrix<double>(gauss.size(), gauss.size()));
     for (unsigned int a = 0; a < gauss.size(); ++a)
       for (unsigned int b = 0; b < gauss.size(); ++b)
       {
-        const Tensor<2, 2> strain = scene.initial_strain_in(cell, map.point(at(gauss, a, b)));
+        const Point<2> x = map.point(at(gauss, a, b));
+        const Tensor<2, 2> strain = scene.initial_strain_in(cell, x);
         for (unsigned int k = 0; k < 3; ++k)
           values[k](a, b) = strain[k == 1][k != 0];
+        if (scene.is_axisymmetric())
+          values[3](a, b) = initial_strain_across<2>(scene, cell, x);
       }
     return values;
   };
-  std::array<FullMatrix<double>, 3> missed = strains_at(finer);
-  const std::array<FullMatrix<double>, 3> known = strains_at(own);
+  std::array<FullMatrix<double>, 4> missed = strains_at(finer);
+  const std::array<FullMatrix<double>, 4> known = strains_at(own);
   FullMatrix<double> half(n + 3, n), whole(n + 3, n + 3);
-  for (unsigned int k = 0; k < 3; ++k)
+  for (unsigned int k = 0; k < 4; ++k)
   {
     basis.mmult(half, known[k]);
     half.mTmult(whole, basis);
@@ -149,8 +152,11 @@ double initial_stress_error(const Scene<2> &scene, const Triangulation<2>::cell_
       strain[0][0] = missed[0](a, b);
       strain[1][1] = missed[1](a, b);
       strain[0][1] = strain[1][0] = missed[2](a, b);
+      const Point<2> reference = at(finer, a, b);
       sum += finer.weight(a) * finer.weight(b) * box.volume() *
-             std::abs(determinant(map.jacobian(at(finer, a, b)))) * law.energy_product(strain);
+             std::abs(determinant(map.jacobian(reference))) *
+             scene.circumference(map.point(reference)) *
+             law.energy_product(strain, missed[3](a, b));
     }
   return sum;
 }

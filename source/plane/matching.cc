@@ -63,7 +63,9 @@ bool has_given_tractions(const ContactSpace<dim> &contact_space)
     return true;
   for (const ContactFace<dim> &face : contact_space.faces())
   {
-    if (face.map.is_curved() || (!face.segments.empty() && face.segments[0].drawn))
+    if (face.is_axisymmetric || face.map.is_curved() ||
+        (!face.segments.empty() && face.segments[0].drawn) ||
+        (!face.condition->is_unilateral() && face.condition->friction.knows_pressure()))
       return true;
     for (const double s : {0., 0.5, 1.})
       if (const Tensor<1, dim> normal =
@@ -130,13 +132,8 @@ template <int dim>
 std::string no_error_bound(const Scene<dim> &scene)
 {
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.has_contact() && boundary.friction.knows_pressure() &&
-        (dim == 3 || !boundary.is_unilateral()))
-      return boundary.friction.name() + (dim == 3 ? " minimises no energy"
-                                                  : " on bilateral contact has no bound, for what "
-                                                    "pulls has no friction");
-  if (scene.is_axisymmetric())
-    return "the body is axisymmetric, and stresses in equilibrium are those of the plane";
+    if (dim == 3 && boundary.has_contact() && boundary.friction.knows_pressure())
+      return boundary.friction.name() + " minimises no energy";
   if (scene.adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (const BoundaryCondition<dim> *const curved = curved_contact(scene))

@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/plane/elastic_system.h>
+#include <hpvi/plane/initial_stress.h>
 #include <hpvi/plane/missed_loads.h>
 
 #include <algorithm>
@@ -57,7 +58,11 @@ DatumValue sum_of_loads(const Discretisation<2> &discretisation)
 DatumValue sum_of_initial_stress(const Discretisation<2> &discretisation)
 {
   DatumValue result;
-  const Vector<double> &load = discretisation.system.strain_loads();
+  Vector<double> load = discretisation.system.strain_loads();
+  if (!discretisation.scene.pretensions.empty()) // which no rule looks at
+    load = initial_strain_loads(without_shortenings(discretisation.scene),
+                                discretisation.spaces->displacement_space,
+                                *discretisation.spaces->tables, *discretisation.spaces->loads);
   for_each_node(
       discretisation.spaces->displacement_space, *discretisation.spaces->tables,
       [&](const types::global_dof_index dof, const unsigned int component, const Point<2> &x)

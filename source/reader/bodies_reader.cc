@@ -8,8 +8,10 @@
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/pair_sides.h>
+#include <hpvi/reader/pretension_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/shapes/shape.h>
+#include <hpvi/reader/space_pairs.h>
 #include <hpvi/scene/bodies.h>
 #include <hpvi/scene/boundary_parts.h>
 
@@ -40,9 +42,9 @@ std::string section_of_pair(const std::string &name)
 }
 } // namespace
 
-std::vector<Entry> body_entries(const std::string &name)
+std::vector<Entry> body_entries(const int dim, const std::string &name)
 {
-  std::vector<Entry> entries = geometry_entries<2>();
+  std::vector<Entry> entries = dim == 2 ? geometry_entries<2>() : geometry_entries<3>();
   entries.push_back({"", "Surfaces", "", std::make_shared<Patterns::Anything>(),
                      "names of surfaces \"A, B\" or nothing",
                      "The physical surfaces of File that make this body, as several bodies may "
@@ -85,8 +87,9 @@ std::vector<Entry> pair_entries(const std::string &name)
       {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g; empty or 0: no friction."},
       {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
-       "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f max(0, -T_n); empty or 0: no "
-       "friction."},
+       "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f p, p = max(0, -T_n), which may use p "
+       "as "
+       "that of a Boundary; empty or 0: no friction."},
       {section, "Friction law", "automatic",
        std::make_shared<Patterns::Selection>("automatic|limited|cohesive"),
        "automatic, limited or cohesive",
@@ -100,11 +103,12 @@ std::vector<Entry> pair_entries(const std::string &name)
 namespace
 {
 /** A body by itself, checked; messages name its section. */
-Scene<2> single_body(const Parameters &parameters, const std::string &name)
+template <int dim>
+Scene<dim> single_body(const Parameters &parameters, const std::string &name)
 {
-  Scene<2> single;
+  Scene<dim> single;
   single.parameters = parameters.with_section("Geometry", section_of_body(name));
-  single.geometry = read_geometry<2>(*single.parameters);
+  single.geometry = read_geometry<dim>(*single.parameters);
   single.geometry.grading_levels = single.parameters->integer("Geometry", "Grading levels");
   if (single.geometry.mesh)
     single.remarks = single.geometry.mesh->remarks;
@@ -116,6 +120,20 @@ Scene<2> single_body(const Parameters &parameters, const std::string &name)
   return single;
 }
 
+/** Grid lines of a box where materials end, unless the body names its own. */
+template <int dim>
+void cut_at_materials(const Parameters &parameters, const UserNames &names, const std::string &name,
+                      Scene<dim> &body)
+{
+  if (!parameters.text(section_of_body(name), "Material").empty())
+    return;
+  for (const std::string &material : names.materials)
+    if (const std::string section = section_of_material(material);
+        !parameters.text(section, "Where").empty())
+      cut_body(body, read_where(parameters, section, sample_body(body.geometry)),
+               section + "/Where");
+}
+
 /** Grid lines of boxes where parts of sides and materials end, as of one body. */
 void cut_bodies(const Parameters &parameters, const UserNames &names,
                 std::vector<Scene<2>> &singles)
@@ -123,12 +141,8 @@ void cut_bodies(const Parameters &parameters, const UserNames &names,
   for (unsigned int b = 0; b < singles.size(); ++b)
   {
     Scene<2> &body = singles[b];
-    if (parameters.text(section_of_body(names.bodies[b]), "Material").empty())
-      for (const std::string &material : names.materials)
-        if (const std::string section = section_of_material(material);
-            !parameters.text(section, "Where").empty())
-          cut_body(body, read_where(parameters, section, sample_body(body.geometry)),
-                   section + "/Where");
+    cut_at_pretensions(parameters, names.pretensions, body);
+    cut_at_materials(parameters, names, names.bodies[b], body);
     for (const std::string &part : names.parts)
       for (unsigned int side = 0; side < body.geometry.boundary_names().size(); ++side)
         if (const std::string section = "Boundary " + part;
@@ -139,13 +153,28 @@ void cut_bodies(const Parameters &parameters, const UserNames &names,
                    section + "/Where");
   }
 }
+
+/** Bodies become one geometry, whose boundaries are BODY.side. */
+template <int dim>
+void join(const UserNames &names, const std::vector<Scene<dim>> &singles, Scene<dim> &scene)
+{
+  std::vector<SingleBody<dim>> bodies;
+  for (unsigned int b = 0; b < singles.size(); ++b)
+  {
+    bodies.push_back({names.bodies[b], singles[b].geometry});
+    for (const std::string &remark : singles[b].remarks)
+      scene.remarks.push_back(section_of_body(names.bodies[b]) + ": " + remark);
+  }
+  scene.geometry = geometry_of_bodies(bodies);
+  scene.name_boundaries();
+}
 } // namespace
 
 void read_bodies(const Parameters &parameters, const UserNames &names, Scene<2> &scene)
 {
   std::vector<Scene<2>> singles;
   for (const std::string &name : names.bodies)
-    singles.push_back(single_body(parameters, name));
+    singles.push_back(single_body<2>(parameters, name));
   cut_bodies(parameters, names, singles);
   const std::vector<NamedSide> sides = named_sides(parameters, names, singles);
   std::vector<PairSides> pairs;
@@ -161,24 +190,37 @@ void read_bodies(const Parameters &parameters, const UserNames &names, Scene<2> 
       scene.remarks.push_back(pair.closed);
   }
   check_overlap(parameters, pairs);
-  std::vector<SingleBody> bodies;
-  for (unsigned int b = 0; b < singles.size(); ++b)
-  {
-    bodies.push_back({names.bodies[b], singles[b].geometry});
-    for (const std::string &remark : singles[b].remarks)
-      scene.remarks.push_back(section_of_body(names.bodies[b]) + ": " + remark);
-  }
-  scene.geometry = geometry_of_bodies(bodies);
-  scene.name_boundaries();
+  join(names, singles, scene);
   for (const PairSides &pair : pairs)
     add_parts(pair, scene);
+}
+
+void read_bodies(const Parameters &parameters, const UserNames &names, Scene<3> &scene)
+{
+  std::vector<Scene<3>> singles;
+  for (const std::string &name : names.bodies)
+  {
+    singles.push_back(single_body<3>(parameters, name));
+    cut_at_materials(parameters, names, name, singles.back());
+  }
+  std::vector<SpacePair> pairs;
+  for (const std::string &name : names.pairs)
+    pairs.push_back(read_space_pair(parameters, section_of_pair(name), name, names, singles));
+  join(names, singles, scene);
+  for (const SpacePair &pair : pairs)
+  {
+    if (!pair.closed.empty())
+      scene.remarks.push_back(pair.closed);
+    add_parts(pair, scene);
+  }
 }
 
 namespace
 {
 /** What `Between` calls the side, or part of a side, of which @p part of a pair takes its edges. */
-std::string taken_from(const Parameters &parameters, const Scene<2> &scene,
-                       const BoundaryCondition<2> &part)
+template <int dim>
+std::string taken_from(const Parameters &parameters, const Scene<dim> &scene,
+                       const BoundaryCondition<dim> &part)
 {
   const unsigned int k = scene.pairs[*part.pair].parts[0] == part.id ? 0 : 1;
   return Utilities::split_string_list(parameters.text(section_of_pair(part.pair_name), "Between"),
@@ -186,47 +228,49 @@ std::string taken_from(const Parameters &parameters, const Scene<2> &scene,
 }
 } // namespace
 
-Expression<2> rest_of_part(const Parameters &parameters, const Scene<2> &scene,
-                           const BoundaryCondition<2> &part)
+template <int dim>
+Expression<dim> rest_of_part(const Parameters &parameters, const Scene<dim> &scene,
+                             const BoundaryCondition<dim> &part)
 {
-  std::vector<Expression<2>> taken;
-  for (const BoundaryCondition<2> &other : scene.boundaries)
+  std::vector<Expression<dim>> taken;
+  for (const BoundaryCondition<dim> &other : scene.boundaries)
     if (other.pair && taken_from(parameters, scene, other) == part.name)
       taken.push_back(other.where);
   if (taken.empty())
     return part.where;
-  const Expression<2> rest = expression<2>(
-      [where = part.where, taken](const Point<2> &x)
+  const Expression<dim> rest = expression<dim>(
+      [where = part.where, taken](const Point<dim> &x)
       {
         return std::any_of(taken.begin(), taken.end(),
-                           [&](const Expression<2> &one) { return one->value(x) > 0; })
+                           [&](const Expression<dim> &one) { return one->value(x) > 0; })
                    ? -1.
                    : where->value(x);
       });
-  const std::vector<CoarseFace<2>> faces = coarse_faces(scene.geometry, part.side);
+  const std::vector<CoarseFace<dim>> faces = coarse_faces(scene.geometry, part.side);
   const bool has_any =
       std::any_of(faces.begin(), faces.end(),
-                  [&](const CoarseFace<2> &face) { return rest->value(middle_of(face)) > 0; });
+                  [&](const CoarseFace<dim> &face) { return rest->value(middle_of(face)) > 0; });
   return has_any ? rest : nullptr;
 }
 
-void check_covered_sides(const Parameters &parameters, const Scene<2> &scene)
+template <int dim>
+void check_covered_sides(const Parameters &parameters, const Scene<dim> &scene)
 {
-  const std::vector<Side<2>> sides = sides_of(scene);
-  for (const BoundaryCondition<2> &part : scene.boundaries)
+  const std::vector<Side<dim>> sides = sides_of(scene);
+  for (const BoundaryCondition<dim> &part : scene.boundaries)
   {
     if (!part.pair)
       continue;
     const std::string name = taken_from(parameters, scene, part), section = "Boundary " + name;
     if (std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
-                    [&](const BoundaryCondition<2> &rest)
+                    [&](const BoundaryCondition<dim> &rest)
                     { return !rest.pair && rest.name == name && !sides[rest.id].pieces.empty(); }))
       continue;
     for (const char *const entry :
          {"Displacement", "Traction", "Pressure", "Shear", "Symmetry", "Spring", "Rigid", "Force",
           "Rotation", "Moment", "Contact", "Gap", "Contact direction", "Friction bound",
           "Friction coefficient", "Wear coefficient"})
-      if (says_something(parameters, section, entry) &&
+      if (parameters.has(section, entry) && says_something(parameters, section, entry) &&
           (entry != std::string("Wear coefficient") || parameters.number(section, entry) > 0))
         parameters.reject(section, entry,
                           "acts nowhere, for " + section_of_pair(part.pair_name) +
@@ -234,8 +278,9 @@ void check_covered_sides(const Parameters &parameters, const Scene<2> &scene)
   }
 }
 
+template <int dim>
 std::vector<std::optional<types::material_id>> materials_of_bodies(const Parameters &parameters,
-                                                                   const Scene<2> &scene)
+                                                                   const Scene<dim> &scene)
 {
   const auto called = [&](const std::string &name) -> std::optional<types::material_id>
   {
@@ -266,27 +311,25 @@ std::vector<std::optional<types::material_id>> materials_of_bodies(const Paramet
   return result;
 }
 
-void read_pair(const Parameters &parameters, const std::optional<double> t, const Scene<2> &scene,
-               BoundaryCondition<2> &part)
+template <int dim>
+void read_pair(const Parameters &parameters, const std::optional<double> t, const Scene<dim> &scene,
+               BoundaryCondition<dim> &part)
 {
   const std::string section = section_of_pair(part.pair_name);
   std::map<std::string, double> constants{{"pi", numbers::PI}};
   if (t)
     constants.emplace("t", *t);
-  const ExpressionReader<2> expressions(parameters, constants,
-                                        "; E, nu and mu are those of no body here");
+  const ExpressionReader<dim> expressions(parameters, constants,
+                                          "; E, nu and mu are those of no body here");
   const ContactPair &pair = scene.pairs[*part.pair];
   // Both parts are tried at the same places, so that they say the same.
-  const std::vector<Point<2>> points = sides_of(scene)[pair.parts[0]].sample();
+  const std::vector<Point<dim>> points = sides_of(scene)[pair.parts[0]].sample();
   part.contact = static_cast<Contact>(
       1 + (std::find(law_names.begin(), law_names.end(), parameters.text(section, "Law")) -
            law_names.begin()));
   const bool is_apart = part.gap != nullptr;
-  part.gap = sum<2>(part.gap, 1., expressions.read<1>(section, "Gap", "0", points)[0]);
-  part.friction.bound =
-      expressions.read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
-  part.friction.coefficient = expressions.read_bound(section, "Friction coefficient", points,
-                                                     "Coulomb's coefficient needs mu_f >= 0");
+  part.gap = sum<dim>(part.gap, 1., expressions.template read<1>(section, "Gap", "0", points)[0]);
+  part.friction = expressions.read_friction(section, points);
   part.friction.form =
       read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
   part.wear = read_wear(parameters, section, !part.is_tied());
@@ -302,4 +345,19 @@ void read_pair(const Parameters &parameters, const std::optional<double> t, cons
     if (part.is_tied() && !parameters.text(section, entry).empty())
       parameters.reject(section, entry, "means nothing where bodies are tied; remove it");
 }
+
+template Expression<2> rest_of_part(const Parameters &, const Scene<2> &,
+                                    const BoundaryCondition<2> &);
+template Expression<3> rest_of_part(const Parameters &, const Scene<3> &,
+                                    const BoundaryCondition<3> &);
+template void check_covered_sides(const Parameters &, const Scene<2> &);
+template void check_covered_sides(const Parameters &, const Scene<3> &);
+template std::vector<std::optional<types::material_id>> materials_of_bodies(const Parameters &,
+                                                                            const Scene<2> &);
+template std::vector<std::optional<types::material_id>> materials_of_bodies(const Parameters &,
+                                                                            const Scene<3> &);
+template void read_pair(const Parameters &, std::optional<double>, const Scene<2> &,
+                        BoundaryCondition<2> &);
+template void read_pair(const Parameters &, std::optional<double>, const Scene<3> &,
+                        BoundaryCondition<3> &);
 } // namespace hpvi

@@ -7,6 +7,7 @@
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/material_reader.h>
+#include <hpvi/reader/pretension_reader.h>
 #include <hpvi/reader/shapes/hexahedra_from_file.h>
 #include <hpvi/reader/shapes/mesh_from_file.h>
 #include <hpvi/reader/shapes/shape.h>
@@ -147,9 +148,8 @@ void place_materials(const Parameters &parameters, Scene<dim> &scene)
   if (scene.geometry.shape == Shape::file)
     surfaces = scene.geometry.mesh->surfaces;
   scene.material_of_surface = materials_of_surfaces(parameters, surfaces, scene.materials);
-  if constexpr (dim == 2)
-    if (scene.geometry.shape == Shape::bodies)
-      scene.material_of_surface = materials_of_bodies(parameters, scene);
+  if (scene.geometry.shape == Shape::bodies)
+    scene.material_of_surface = materials_of_bodies(parameters, scene);
   const auto is_of_body = [&](const types::material_id m)
   {
     return scene.geometry.shape == Shape::bodies &&
@@ -207,8 +207,7 @@ void read_part(const Parameters &parameters, const std::string &name, Scene<dim>
   part.side = side - sides.begin();
   part.where = read_where(parameters, section, sides_of(scene.geometry)[part.side].sample());
   cut_side(scene, part.side, part.where, section + "/Where");
-  if constexpr (dim == 2)
-    part.where = rest_of_part(parameters, scene, part);
+  part.where = rest_of_part(parameters, scene, part);
   if (part.where)
     scene.boundaries.push_back(part);
 }
@@ -222,8 +221,10 @@ void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> 
     scene.geometry = read_geometry<dim>(parameters);
     scene.geometry.grading_levels = parameters.integer("Geometry", "Grading levels");
     scene.name_boundaries();
+    if constexpr (dim == 2)
+      cut_at_pretensions(parameters, names.pretensions, scene);
   }
-  else if constexpr (dim == 2)
+  else
     read_bodies(parameters, names, scene);
   if constexpr (dim == 2)
     if (scene.geometry.shape == Shape::file || scene.geometry.shape == Shape::bodies)
@@ -236,7 +237,7 @@ void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> 
   if constexpr (dim == 3)
     if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry))
     {
-      scene.remarks = mesh->remarks;
+      scene.remarks.insert(scene.remarks.end(), mesh->remarks.begin(), mesh->remarks.end());
       for (const std::string &remark : remarks_on_facets(*mesh))
         scene.remarks.push_back(remark);
     }
@@ -252,6 +253,8 @@ void read_body(const Parameters &parameters, const UserNames &names, Scene<dim> 
   check_body(scene);
   for (const std::string &part : names.parts)
     read_part(parameters, part, scene);
+  if constexpr (dim == 2)
+    read_pretensions(parameters, names.pretensions, scene);
 }
 
 template <int dim>

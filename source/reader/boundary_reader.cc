@@ -103,8 +103,11 @@ std::vector<Entry> boundary_entries(const std::string &boundary)
        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
        "empty or 0: no friction."},
       {section, "Friction coefficient", "", text, "one expression mu_f >= 0 or nothing",
-       "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f max(0, -T_n), instead of a bound or, "
-       "by Friction law, with one; of unilateral or bilateral contact; empty or 0: no friction."},
+       "Coulomb's coefficient mu_f(x,y) >= 0, |T_t| <= mu_f p, p = max(0, -T_n), instead of a "
+       "bound "
+       "or, by Friction law, with one; of unilateral or bilateral contact. It may use the pressure "
+       "p, as in 0.5/(1 + p), if friction mu_f p grows with p and is concave. Empty or 0: "
+       "no friction."},
       {section, "Friction law", "automatic", one_of(friction_law_names),
        "automatic, limited or cohesive",
        "What Friction bound g and Friction coefficient mu_f make together, with p = max(0, -T_n). "
@@ -322,10 +325,7 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
   if constexpr (dim == 2)
     read_direction(parameters, expressions, section, boundary);
   boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
-  boundary.friction.bound =
-      expressions.read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
-  boundary.friction.coefficient = expressions.read_bound(section, "Friction coefficient", points,
-                                                         "Coulomb's coefficient needs mu_f >= 0");
+  boundary.friction = expressions.read_friction(section, points);
   boundary.friction.form =
       read_choice<FrictionForm>(parameters, section, "Friction law", friction_law_names);
   boundary.wear = read_wear(parameters, section, boundary.has_contact());

@@ -141,6 +141,7 @@ void cut_body(Scene<dim> &scene, const Expression<dim> &where, const std::string
 }
 
 template void add_lines(Scene<2> &, unsigned int, const std::vector<double> &, const std::string &);
+template void add_lines(Scene<3> &, unsigned int, const std::vector<double> &, const std::string &);
 template void cut_side(Scene<2> &, unsigned int, const Expression<2> &, const std::string &);
 template void cut_side(Scene<3> &, unsigned int, const Expression<3> &, const std::string &);
 template void cut_body(Scene<2> &, const Expression<2> &, const std::string &);

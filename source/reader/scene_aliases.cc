@@ -75,6 +75,10 @@ std::vector<Alias> hints_about_method()
             "evaluation point", "evaluation points"},
            "a place of which results tell displacement and stress has a subsection Probe NAME, "
            "with At = x, y, On = a boundary, or From and To"},
+          {{"pretension", "pre-tension", "preload", "bolt", "bolts", "bolt load", "bolt force",
+            "bolt preload", "tightening"},
+           "a bolt that is tightened has a subsection Pretension NAME, with Through = x1, y1; x2, "
+           "y2, a cut, and Force"},
           {{"output directory", "directory", "folder"},
            "the directory is that of the option --output"}};
 }
@@ -185,7 +189,6 @@ std::vector<Alias> hints_in_space()
           {{"threads"},
            "a body in space has one thread of each process; start several, mpirun -np N hpvi, and "
            "remove it"},
-          {{"mesh picture"}, "it shows a plane; remove it, solution-NN.vtu has the mesh"},
           {{"bound", "bound on distorted cells"},
            "space has no guaranteed bound of the error, but an indicator; remove it"}};
 }
@@ -198,8 +201,7 @@ std::vector<Alias> scene_aliases(const int dim, const std::vector<std::string> &
       {{"boundary", "boundaries", "boundary condition", "boundary conditions", "bc"},
        "conditions stand in the subsections Boundary " + listed(boundaries, "and")}};
   for (const std::vector<Alias> &some :
-       {hints_about_curves_inside(interfaces),
-        dim == 2 ? hints_about_pairs() : std::vector<Alias>(),
+       {hints_about_curves_inside(interfaces), hints_about_pairs(),
         dim == 2 ? hints_in_plane() : hints_in_space(), hints_about_body(),
         hints_about_conditions(), hints_about_method()})
     aliases.insert(aliases.end(), some.begin(), some.end());

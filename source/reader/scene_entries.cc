@@ -4,6 +4,7 @@
 #include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/closed_forms/closed_form.h>
 #include <hpvi/reader/material_reader.h>
+#include <hpvi/reader/pretension_reader.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/shapes/mesh_from_file.h>
@@ -74,7 +75,7 @@ void add_problem_entries(std::vector<Entry> &entries, const int dim,
   if (names.bodies.empty())
     add(entries, dim == 2 ? geometry_entries<2>() : geometry_entries<3>());
   for (const std::string &body : names.bodies)
-    add(entries, body_entries(body));
+    add(entries, body_entries(dim, body));
   for (const std::string &pair : names.pairs)
     add(entries, pair_entries(pair));
   for (const std::string &material : materials)
@@ -178,8 +179,9 @@ void add_loading_entries(std::vector<Entry> &entries)
        {section, "Until steady", "", word_or("", Patterns::Double(1e-12, 0.5)),
         "a share from 1e-12 to 0.5, or nothing",
         "Repeats the load steps from t = 0 to 1 as a cycle until the energy that friction "
-        "dissipates in one differs from that in the one before by less than this share; empty: "
-        "they are gone through once."},
+        "dissipates in one differs from that in the one before by less than this share, or is less "
+        "than this share of the largest, as where contact shakes down; empty: they are gone "
+        "through once."},
        {section, "Maximum cycles", "20", matching(Patterns::Integer(2, 1000)),
         "an integer from 2 to 1000", "Of Until steady: no cycle is begun after this many."}});
 }
@@ -256,21 +258,20 @@ void add_program_entries(std::vector<Entry> &entries)
        {"Output", "VTU", "true", boolean, yes_no,
         "Write solution-NN.vtu, contact-NN.vtu where there is contact, and a .pvd of each: for "
         "ParaView."},
-       {"Output", "Mesh picture", "true", boolean, yes_no, "Write mesh-NN.svg."},
+       {"Output", "Mesh picture", "false", boolean, yes_no,
+        "Has no effect any more: hpvi --report DIR draws the mesh."},
        {"Output", "Contact tables", "true", boolean, yes_no, "Write contact-NN.csv."},
-       {"Output", "Report", "true", boolean, yes_no,
-        "Write report.html when the run is over: one page to read, print and send, with all that "
-        "came out of it."},
+       {"Output", "Report", "false", boolean, yes_no,
+        "Has no effect any more: hpvi --report DIR makes the report."},
        {"Output", "Reference solution", "false", boolean, yes_no,
         "Write the last step's displacement to reference.dat, for Error/Reference solution."},
        {"Error", "Bound", "true", one_of({"true", "false", "last step"}),
         "true, false or last step",
         "Compute the guaranteed bound of the error, where there is one (doc/bound.md). true: of "
-        "each step; on meshes of files, where cells are no parallelograms and under Coulomb's law "
-        "it "
-        "takes longer than the step itself, and a file that does not name it has last step there. "
-        "last step: of the "
-        "last one alone, which saves most of its time; cells are "
+        "each step; on meshes of files, where cells are no parallelograms, around an axis and "
+        "under Coulomb's law it takes longer than the step itself, and a file that does not name "
+        "it has last step there. last step: of the last one alone, which saves most of its time; "
+        "cells are "
         "marked by Indicator = residual then, and where Tolerance on asks for the bound or an "
         "interval the first step has it, too, and those that may meet the tolerance by their "
         "indicator."},
@@ -287,7 +288,6 @@ bool is_of_the_plane(const Entry &entry)
          entry.section == "Temperature" || entry.name == "Initial strain" ||
          entry.name == "Thermal expansion" || entry.name == "Rigid" || entry.name == "Force" ||
          entry.name == "Rotation" || entry.name == "Moment" || entry.name == "Contact direction" ||
-         (entry.section == "Output" && entry.name == "Mesh picture") ||
          (entry.section == "Solver" &&
           (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
            entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||
@@ -344,6 +344,8 @@ std::vector<Entry> scene_entries(const int dim, const UserNames &names)
     add(entries, part_entries(part, names.sides));
     add(entries, boundary_entries(part));
   }
+  for (const std::string &pretension : names.pretensions)
+    add(entries, pretension_entries(pretension));
   for (const std::string &probe : names.probes)
     add(entries, probe_entries(dim, probe));
   add_loading_entries(entries);

@@ -13,9 +13,11 @@
 #include <hpvi/reader/closed_forms/closed_form.h>
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/pretension_reader.h>
 #include <hpvi/reader/probe_reader.h>
 #include <hpvi/reader/scene_aliases.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/scene/boundary_parts.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -85,6 +87,8 @@ void read_initial_strains(const Parameters &parameters, const std::optional<doub
   if (!parameters.text(section, entry).empty() && !expands)
     parameters.reject("Temperature", "Expression",
                       "strains nothing; give Material/Thermal expansion or remove it");
+  for (unsigned int k = 0; k < scene.pretensions.size(); ++k)
+    set_shortening(scene, k, 0.);
   if (!scene.has_initial_strain())
     scene.initial_strains.clear();
 }
@@ -119,8 +123,7 @@ double constant_friction_bound(const Parameters &parameters, const ExpressionRea
                                const std::string &boundary, const Side<2> &side)
 {
   const std::vector<Point<2>> points = side.sample();
-  const auto bound =
-      expressions.read_bound(boundary, "Friction bound", points, "Tresca's bound needs g >= 0");
+  const auto bound = expressions.read_friction(boundary, points).bound;
   if (bound == nullptr || parameters.text(boundary, "Contact") == "none")
     return 0.;
   const double value = bound->value(points[0]);
@@ -308,8 +311,19 @@ void read_body_force(const Parameters &parameters, const std::optional<double> t
   scene.body_force_of_material.clear();
 }
 
+/** Runs made a page and pictures of meshes once: files that ask for them are taken as they are. */
+template <int dim>
+void remark_on_pictures(const Parameters &parameters, Scene<dim> &scene)
+{
+  for (const std::string entry : {"Report", "Mesh picture"})
+    if (parameters.has("Output", entry) && parameters.boolean("Output", entry))
+      scene.remarks.push_back("Output/" + entry +
+                              " has no effect any more: hpvi --report DIR makes a page of a run, "
+                              "with its mesh");
+}
+
 /**
- * Where cells are no parallelograms, and under laws that know the pressure, the bound takes longer than the step: a file that does not name it has it
+ * Where cells are no parallelograms, around an axis and under laws that know the pressure, the bound takes longer than the step: a file that does not name it has it
  * of the last step.
  */
 void choose_bound(const Parameters &parameters, Scene<2> &scene)
@@ -319,8 +333,8 @@ void choose_bound(const Parameters &parameters, Scene<2> &scene)
                             "shape have a bound, by default in the last step");
   const bool names_indicator = parameters.is_named("Adaptivity", "Indicator");
   const bool is_of_file = scene.geometry.has_mesh() && scene.geometry.bodies.empty(),
-             is_cheap =
-                 scene.geometry.has_affine_cells() && !is_of_file && !scene.has_coulomb_friction();
+             is_cheap = scene.geometry.has_affine_cells() && !is_of_file &&
+                        !scene.has_coulomb_friction() && !scene.is_axisymmetric();
   if (parameters.is_named("Error", "Bound") || is_cheap ||
       (names_indicator && scene.adaptivity.indicator == Indicator::bound))
     return;
@@ -353,18 +367,15 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
                             ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t),
                                                 remark_on_constants(scene.materials[0])),
                             scene);
-  if constexpr (dim == 2)
-    check_covered_sides(*parameters, scene);
+  check_covered_sides(*parameters, scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.pair)
-    {
-      if constexpr (dim == 2)
-        read_pair(*parameters, t, scene, boundary);
-    }
+      read_pair(*parameters, t, scene, boundary);
     else if (!boundary.name.empty()) // edges of a mesh in no group
       read_boundary(*parameters, t, scene, boundary);
   read_probes(*parameters, names.probes, scene);
   scene.reference_solution = parameters->text("Error", "Reference solution");
+  remark_on_pictures(*parameters, scene);
   if constexpr (dim == 2)
     choose_bound(*parameters, scene);
   return scene;
@@ -408,10 +419,6 @@ template <int dim>
 UserNames names_in(const ParameterFile &file)
 {
   const std::vector<std::string> bodies = body_names(file.assignments);
-  if (dim == 3 && !bodies.empty())
-    throw InputError(display_name(file.name) +
-                     ": Dimension = 3: several bodies are offered in the plane alone; set 2, or "
-                     "describe one body in the subsection Geometry");
   SideNames sides;
   if (bodies.empty())
     sides = names_of_sides<dim>(file);
@@ -426,6 +433,9 @@ UserNames names_in(const ParameterFile &file)
           sides.interfaces.push_back(body + "." + curve);
   }
   UserNames names = user_names(file.assignments, sides.sides);
+  if (dim == 3 && !names.pretensions.empty())
+    throw InputError(display_name(file.name) + ": " + section_of_pretension(names.pretensions[0]) +
+                     ": is offered in the plane alone; set Dimension = 2 or remove it");
   names.bodies = bodies;
   names.is_from_file = sides.is_from_file;
   names.interfaces = sides.interfaces;
@@ -514,9 +524,9 @@ int scene_dimension(const ParameterFile &file)
 std::string default_parameters()
 {
   std::vector<Entry> entries = scene_entries(2, {{"NAME"}, {"NAME"}});
-  for (const auto &some : {curve_entries("NAME"),                      // of a file alone
-                           body_entries("NAME"), pair_entries("NAME"), // of several bodies
-                           probe_entries(2, "NAME")})
+  for (const auto &some : {curve_entries("NAME"),                         // of a file alone
+                           body_entries(2, "NAME"), pair_entries("NAME"), // of several bodies
+                           pretension_entries("NAME"), probe_entries(2, "NAME")})
     entries.insert(entries.end(), some.begin(), some.end());
   return Parameters(entries, {}, "").print(true);
 }

@@ -10,7 +10,7 @@ namespace hpvi
 namespace
 {
 const std::string material = "Material ", boundary = "Boundary ", body = "Body ",
-                  contact = "Contact ", probe = "Probe ";
+                  contact = "Contact ", probe = "Probe ", pretension = "Pretension ";
 
 bool begins_with(const std::string &text, const std::string &start)
 {
@@ -88,6 +88,8 @@ UserNames user_names(const std::vector<Assignment> &all, const std::vector<std::
       add(result.pairs, {one.section.substr(contact.size()), one.where}, contact);
     if (begins_with(one.section, probe))
       add(result.probes, {one.section.substr(probe.size()), one.where}, probe);
+    if (begins_with(one.section, pretension))
+      add(result.pretensions, {one.section.substr(pretension.size()), one.where}, pretension);
     if (!begins_with(one.section, boundary) || one.name != "On")
       continue;
     const Found part{one.section.substr(boundary.size()), one.where};

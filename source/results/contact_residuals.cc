@@ -31,8 +31,8 @@ double penetration(const FieldFace<dim> &face, const Field<dim> &field)
       field.tables.face(face.degree(), face.face_no, 2 * (face.degree() + 1));
   const unsigned int n = table.points.size();
   const Material *material = &field.scene.material_of(face.cell);
-  for (const ContactSegment<dim> &segment : field.segments(face))
-    if (const Material &other = field.scene.material_of(segment.cell);
+  for (const types::material_id opposite : field.materials_opposite(face))
+    if (const Material &other = field.scene.materials[opposite];
         other.residual_weight() < material->residual_weight())
       material = &other;
   const double weight = material->residual_weight(),
@@ -171,6 +171,44 @@ std::vector<OppositeResidual> free_residuals(const Field<dim> &field,
   return result;
 }
 
+namespace
+{
+/** Squares of sigma n - t at points of a face of a master, t what is exerted there. */
+template <int dim>
+OppositeResidual residual_at(const ExertedTraction<dim> &part, const Field<dim> &field,
+                             const Tractions<dim> &tractions)
+{
+  const CellMap<dim> map = map_of<dim>(part.cell);
+  std::vector<Tensor<1, dim>> normals;
+  for (const Point<dim> &reference : part.references)
+    normals.push_back(map.normal(part.face_no, reference));
+  const auto own = tractions(
+      part.cell, tabulate<dim>(field.degree(part.cell), part.references, part.weights, false),
+      normals);
+  OppositeResidual residual{part.cell->active_cell_index(), 0., 0.};
+  for (unsigned int q = 0; q < own.size(); ++q)
+  {
+    const Tensor<1, dim> missing = own[q] - part.tractions[q];
+    const double along_normal = missing * part.normal;
+    residual.normal += part.weights[q] * along_normal * along_normal;
+    residual.tangential += part.weights[q] * (missing.norm_square() - along_normal * along_normal);
+  }
+  return residual;
+}
+} // namespace
+
+template <int dim>
+std::vector<OppositeResidual> exerted_residuals(const Field<dim> &field,
+                                                const Tractions<dim> &tractions)
+{
+  std::vector<OppositeResidual> result;
+  for (const ExertedTraction<dim> &part : field.exerted())
+    result.push_back(residual_at(part, field, tractions));
+  return result;
+}
+
+template std::vector<OppositeResidual> exerted_residuals(const Field<2> &, const Tractions<2> &);
+template std::vector<OppositeResidual> exerted_residuals(const Field<3> &, const Tractions<3> &);
 template std::vector<OppositeResidual> free_residuals(const Field<2> &, const Tractions<2> &);
 template std::vector<OppositeResidual> free_residuals(const Field<3> &, const Tractions<3> &);
 template double penetration(const FieldFace<2> &, const Field<2> &);

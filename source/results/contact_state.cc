@@ -96,8 +96,8 @@ void OwnContact<dim>::add_points(const FieldFace<dim> &face, ContactState<dim> &
                          jump = u - u_opposite;
     // Jumps and tractions are the same from either side; the displacement is that of the first.
     const bool is_first = state.boundary == face.condition->id;
-    const double g = multiplier.bound;
-    const Tangential<dim> z = frame.tangential(multiplier.traction.friction);
+    const double g = multiplier.bound, way = dim == 3 && !is_first ? -1 : 1; // a vector has no side
+    const Tangential<dim> z = way * frame.tangential(multiplier.traction.friction);
     ContactPoint<dim> point;
     point.x = frame.x;
     point.area = multiplier.area;
@@ -109,13 +109,13 @@ void OwnContact<dim>::add_points(const FieldFace<dim> &face, ContactState<dim> &
     point.is_open = multiplier.is_open;
     point.gap = face.condition->gap_at(frame.x) - frame.normal * jump;
     point.normal_displacement = frame.normal * (is_first ? u : -u_opposite);
-    point.tangential_displacement = frame.tangential(is_first ? u : -u_opposite);
+    point.tangential_displacement = way * frame.tangential(is_first ? u : -u_opposite);
     point.normal_jump = frame.normal * jump;
-    point.tangential_jump = frame.tangential(jump);
+    point.tangential_jump = way * frame.tangential(jump);
     point.normal_traction = face.condition->has_pressure() ? 0. - multiplier.traction.pressure
                                                            : traces.normal_traction(q);
     point.tangential_traction = Tangential<dim>() - z; // never -0
-    point.slip = point.tangential_jump - field.past_slip(face, frame.x);
+    point.slip = point.tangential_jump - way * field.past_slip(face, frame.x);
     point.surface_stress =
         surface_stress<dim>(traces.sigma(q), face.map.normal(face.face_no, multiplier.reference));
     points.push_back(point);

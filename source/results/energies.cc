@@ -112,7 +112,9 @@ public:
       Tensor<1, 3> value;
       for (unsigned int c = 0; c < 3; ++c)
         value[c] = u[c * table.points.size() + k];
-      slip.push_back(frame.tangential(value) - field.past_slip(face, frame.x));
+      slip.push_back(frame.tangential(value));
+      if (!face.condition->pair)
+        slip.back() -= field.past_slip(face, frame.x);
     }
   }
 
@@ -152,6 +154,11 @@ private:
         const Point<3> reference =
             point_on_face<3>(face.face_no, Point<2>(corner[0] + width * gauss.point(q)[0],
                                                     corner[1] + width * gauss.point(r)[0]));
+        if (face.condition->pair) // what is opposite is no polynomial where its cells end
+        {
+          const FaceFrame<3> frame = face.frame(reference);
+          u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
+        }
         sum += gauss.weight(q) * gauss.weight(r) * face.frame(reference).measure *
                field.bound(face, reference) * u.norm();
       }

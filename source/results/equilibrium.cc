@@ -51,7 +51,7 @@ struct Resultants
     BoundaryForce<dim> sum{};
     double absolute_force = 0, absolute_moment = 0;
   };
-  std::vector<OfBody> bodies; ///< where there are several; on one process
+  std::vector<OfBody> bodies; ///< where there are several
 
   explicit Resultants(const Scene<dim> &scene)
       : centre(scene.geometry.centre()), is_axisymmetric(scene.is_axisymmetric()),
@@ -95,6 +95,13 @@ struct Resultants
     }
     absolute_force = total(absolute_force, communicator);
     absolute_moment = total(absolute_moment, communicator);
+    for (OfBody &body : bodies)
+    {
+      body.sum.force = total(body.sum.force, communicator);
+      body.sum.moment = total(body.sum.moment, communicator);
+      body.absolute_force = total(body.absolute_force, communicator);
+      body.absolute_moment = total(body.absolute_moment, communicator);
+    }
   }
 };
 

@@ -103,6 +103,21 @@ std::vector<ContactSegment<dim>> Field<dim>::segments(const FieldFace<dim> &) co
 }
 
 template <int dim>
+std::vector<types::material_id> Field<dim>::materials_opposite(const FieldFace<dim> &face) const
+{
+  std::vector<types::material_id> result;
+  for (const ContactSegment<dim> &segment : segments(face))
+    result.push_back(segment.cell->material_id());
+  return result;
+}
+
+template <int dim>
+const std::vector<ExertedTraction<dim>> &Field<dim>::exerted() const
+{
+  return nothing_exerted;
+}
+
+template <int dim>
 Tensor<1, dim> Field<dim>::opposite(const FieldFace<dim> &, const Point<dim> &) const
 {
   return {};

@@ -79,6 +79,10 @@ std::vector<MeanGradient<dim>> mean_gradients(const Field<dim> &field)
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int d = 0; d < dim; ++d)
         mean.value[c][d] = sum[c * dim + d] / sum[n - 1];
+    if constexpr (dim == 2)
+      if (!field.scene.initial_strains.empty())
+        if (const auto &jump = field.scene.initial_strains.at(coarse->material_id()).shortening)
+          mean.value -= Tensor<2, 2>({{(*jump)[0], (*jump)[2]}, {(*jump)[2], (*jump)[1]}});
   }
   return result;
 }

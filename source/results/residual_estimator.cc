@@ -85,6 +85,7 @@ private:
   void add_boundary(const Cell &cell, unsigned int face);
   void add_contact(const FieldFace<dim> &face);
   void add_opposite(const FieldFace<dim> &face);
+  void add_exerted(const OppositeResidual &residual);
   Tractions<dim> traction_of() const
   {
     return [this](const Cell &cell, const ShapeTable<dim> &table,
@@ -365,6 +366,15 @@ void Residuals<dim>::add_opposite(const FieldFace<dim> &face)
   }
 }
 
+/** The same of a master in space. */
+template <int dim>
+void Residuals<dim>::add_exerted(const OppositeResidual &residual)
+{
+  result.contact[residual.cell] += weight(residual.cell) * residual.tangential;
+  (scene.has_pressure() ? result.normal : result.neumann)[residual.cell] +=
+      weight(residual.cell) * residual.normal;
+}
+
 template <int dim>
 ErrorEstimate Residuals<dim>::compute()
 {
@@ -394,7 +404,9 @@ ErrorEstimate Residuals<dim>::compute()
         add_jump(cells[k], cells[k]->neighbor(face), jumps[k][face]);
   for (const FieldFace<dim> &face : field.faces())
     add_contact(face);
-  if (scene.has_pairs()) // where edges reach beyond the other body they are free
+  for (const OppositeResidual &residual : exerted_residuals<dim>(field, traction_of()))
+    add_exerted(residual);
+  if (dim == 2 && scene.has_pairs()) // where edges reach beyond the other body they are free
     for (const OppositeResidual &residual : free_residuals<dim>(field, traction_of()))
       result.neumann[residual.cell] +=
           weight(residual.cell) * (residual.tangential + residual.normal);

@@ -91,8 +91,13 @@ DataScale data_scale(const Scene<dim> &scene)
       raise<dim>(force, component, sample_body(scene.geometry), absolute);
   scale.stress = std::max(scale.stress, force * size);
   if constexpr (dim == 2)
+  {
     if (scene.has_initial_strain())
       scale.stress = std::max(scale.stress, largest_initial_stress(scene));
+    for (const Pretension<2> &cut : scene.pretensions)
+      scale.stress =
+          std::max(scale.stress, cut.force / (scene.thickness * section_of_cut(scene, cut)));
+  }
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {

@@ -280,6 +280,65 @@ Rows<dim> checked_rows(const Scene<dim> &scene, const Point<dim> &centre, const 
                      "that stops it");
   return rows;
 }
+
+/** What a pair asks of the motion of one of its bodies while the other stands: tied, or bilateral along its normal. */
+std::vector<RigidMotion<3>> rows_of_pair(const Scene<3> &scene, const ContactPair &pair,
+                                         const Point<3> &centre, const double length)
+{
+  std::vector<RigidMotion<3>> rows;
+  const BoundaryCondition<3> &part = scene.boundaries[pair.parts[0]];
+  if (!part.is_tied() && part.contact != Contact::bilateral)
+    return rows;
+  for (const auto &[x, normal] : places_on(sides_of(scene)[part.id]))
+  {
+    const Tensor<1, 3> arm = (x - centre) / length;
+    rows.push_back(row_of(normal, arm));
+    if (part.is_tied())
+      for (const Tensor<1, 3> &tangent : contact_axes(normal).tangents)
+        rows.push_back(row_of(tangent, arm));
+  }
+  return rows;
+}
+
+/** Of body @p b what holds it: supports, and pairs with bodies that are held. */
+std::vector<RigidMotion<3>> held_rows(const Scene<3> &scene, const unsigned int b,
+                                      const std::vector<bool> &is_held, const Point<3> &centre,
+                                      const double length)
+{
+  std::vector<RigidMotion<3>> rows = rows_of(scene, b, centre, length).held;
+  for (const ContactPair &pair : scene.pairs)
+    for (const unsigned int k : {0, 1})
+      if (scene.geometry.body_of_side(pair.sides[k]) == b &&
+          is_held[scene.geometry.body_of_side(pair.sides[1 - k])])
+      {
+        const std::vector<RigidMotion<3>> more = rows_of_pair(scene, pair, centre, length);
+        rows.insert(rows.end(), more.begin(), more.end());
+      }
+  return rows;
+}
+
+/** Bodies in space are held by supports, or by a law that cannot open to a body that is: one after the other. */
+void require_held_bodies(const Scene<3> &scene, const Point<3> &centre, const double length)
+{
+  const unsigned int n = scene.geometry.bodies.size();
+  std::vector<bool> is_held(n, false);
+  for (bool is_changed = true; is_changed;)
+  {
+    is_changed = false;
+    for (unsigned int b = 0; b < n; ++b)
+      if (!is_held[b] && motions_of(held_rows(scene, b, is_held, centre, length)).empty())
+        is_held[b] = is_changed = true;
+  }
+  for (unsigned int b = 0; b < n; ++b)
+    if (!is_held[b])
+      throw InputError(
+          printable(scene.origin(), 400) + ": Body " + scene.geometry.bodies[b].name +
+          ": its supports leave a rigid-body motion free, " +
+          describe(motions_of(held_rows(scene, b, is_held, centre, length)).front(), centre,
+                   length) +
+          ", and in space contact that may open or slide holds no body of several; prescribe a "
+          "displacement, set Symmetry, or tie it to a body that is held");
+}
 } // namespace
 
 /** In space see free_motions_in_space(). */
@@ -291,6 +350,12 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
   if constexpr (dim == 2)
     if (!geometry.bodies.empty())
       return motions_of_bodies(*this, centre, length);
+  if constexpr (dim == 3)
+    if (!geometry.bodies.empty())
+    {
+      require_held_bodies(*this, centre, length);
+      return {};
+    }
   const Rows<dim> rows = checked_rows(*this, centre, length);
   std::vector<RigidBodyMotion<dim>> result;
   if constexpr (dim == 2)
@@ -304,6 +369,11 @@ std::vector<SpaceMotion> free_motions_in_space(const Scene<3> &scene)
   const Point<3> centre = scene.geometry.centre();
   const double length = scene.geometry.radius();
   std::vector<SpaceMotion> result;
+  if (!scene.geometry.bodies.empty())
+  {
+    require_held_bodies(scene, centre, length);
+    return result;
+  }
   for (const RigidMotion<3> &motion : motions_of(checked_rows(scene, centre, length).held))
     result.push_back({Tensor<1, 3>({motion[0], motion[1], motion[2]}),
                       Tensor<1, 3>({motion[3], motion[4], motion[5]}) / length, centre});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/scene/friction_law.h>
 
+#include <hpvi/base/formatting.h>
+#include <hpvi/base/numbers.h>
 #include <hpvi/base/text.h>
 
 #include <cmath>
@@ -25,11 +27,21 @@ bool FrictionLaw<dim>::knows_pressure() const
 }
 
 template <int dim>
+bool FrictionLaw<dim>::is_proportional() const
+{
+  return form != FrictionForm::limited && !by_pressure;
+}
+
+template <int dim>
 FrictionLimit FrictionLaw<dim>::at(const Point<dim> &x) const
 {
+  FrictionLimit result{bound_at(x), coefficient_at(x)};
   if (form == FrictionForm::limited)
-    return {0., coefficient_at(x), bound_at(x)};
-  return {bound_at(x), coefficient_at(x)};
+    result = {0., coefficient_at(x), bound_at(x)};
+  if (by_pressure && result.coefficient > 0.)
+    result.relative = [mu = by_pressure, x, at_zero = result.coefficient](const double p)
+    { return (*mu)(x, p) / at_zero; };
+  return result;
 }
 
 template <int dim>
@@ -63,6 +75,7 @@ FrictionLaw<dim> FrictionLaw<dim>::everywhere() const
   for (Expression<dim> *function : {&result.bound, &result.coefficient})
     if (*function)
       *function = expression<dim>(1.);
+  result.by_pressure = nullptr;
   return result;
 }
 
@@ -71,7 +84,9 @@ std::string FrictionLaw<dim>::name() const
 {
   if (form != FrictionForm::automatic)
     return form == FrictionForm::limited ? "limited Coulomb friction" : "cohesive Coulomb friction";
-  return coefficient ? "Coulomb's law" : "Tresca's law";
+  return by_pressure   ? "Coulomb friction by pressure"
+         : coefficient ? "Coulomb's law"
+                       : "Tresca's law";
 }
 
 template <int dim>
@@ -124,6 +139,31 @@ FrictionLaw<dim>::problem(const std::vector<Point<dim>> &points) const
                            (is_bound ? "; Tresca's bound needs g >= 0"
                                      : "; Coulomb's coefficient needs mu_f >= 0")};
   return {};
+}
+
+template <int dim>
+std::optional<typename FrictionLaw<dim>::Problem>
+FrictionLaw<dim>::problem(const Point<dim> &x, const double largest) const
+{
+  if (!by_pressure || !(largest > 0.))
+    return {};
+  const FrictionLimit limit = FrictionLimit{0., coefficient_at(x), infinity, at(x).relative};
+  const auto flaw = limit.flaw(largest);
+  if (!flaw)
+    return {};
+  const auto &[from, to, falls] = *flaw;
+  const std::string where =
+      " from p = " + text(from, 4) + " to p = " + text(to, 4) + " at " + to_string(x);
+  if (falls)
+    return Problem{"Friction coefficient",
+                   "lets friction mu_f p fall from " + text(limit.limit(from), 4) + " to " +
+                       text(limit.limit(to), 4) + where +
+                       "; let it stay from there on, as with if(p < " + text(from, 4) + ", mu_f, " +
+                       text(limit.limit(from), 4) + "/p)"};
+  return Problem{
+      "Friction coefficient",
+      "lets friction mu_f p bend upwards" + where +
+          "; give a mu_f by which mu_f p is concave: it falls with p, and not as a step"};
 }
 
 template struct FrictionLaw<2>;

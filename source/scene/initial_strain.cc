@@ -10,7 +10,7 @@ using namespace dealii;
 template <int dim>
 InitialStrain<dim>::operator bool() const
 {
-  return (expansion != 0. && temperature) ||
+  return shortening || (expansion != 0. && temperature) ||
          std::any_of(components.begin(), components.end(),
                      [](const Expression<dim> &component) { return component != nullptr; });
 }
@@ -28,6 +28,8 @@ PlaneStrain InitialStrain<dim>::value(const Point<dim> &x) const
     for (const unsigned int k : {0, 1, 3})
       strain[k] += expanded;
   }
+  for (unsigned int k = 0; shortening && k < 4; ++k)
+    strain[k] += (*shortening)[k];
   return strain;
 }
 

@@ -161,16 +161,20 @@ template <int dim>
 types::material_id Scene<dim>::material_of_coarse_cell(const Point<dim> &centre,
                                                        const unsigned int cell) const
 {
+  types::material_id result = material_at ? material_at(centre) : 0;
   if (geometry.mesh && !material_of_surface.empty())
     if (const auto own = material_of_surface[geometry.mesh->cells[cell].surface])
-      return *own;
-  return material_at ? material_at(centre) : 0;
+      result = *own;
+  for (const Pretension<dim> &cut : pretensions)
+    if (const auto *const own = cut.cell(centre))
+      return own->material;
+  return result;
 }
 
 template <int dim>
 bool Scene<dim>::has_material_places() const
 {
-  return material_at || !material_of_surface.empty();
+  return material_at || !material_of_surface.empty() || !pretensions.empty();
 }
 
 template <int dim>

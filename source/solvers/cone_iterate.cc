@@ -64,6 +64,11 @@ double ConeIterate::measure()
   set->fixed.project(nearest);
   const FeasibleSet own = set->at(nearest);
   own.project(nearest);
+  for (const auto &[t, normal, friction] : set->cones)
+    if (friction.relative) // a tangent meets its curve to round-off
+      if (const double bound = friction.limit(nearest[normal]);
+          std::abs(nearest[t]) > (1. - settings.tolerance) * bound)
+        nearest[t] = std::copysign(bound, nearest[t]);
   const Vector<double> slope = nearest == point.z ? point.r : gradient(nearest);
   own.split_gradient(nearest, slope, phi, beta);
   for (const FrictionCones::Cone &cone : set->cones)

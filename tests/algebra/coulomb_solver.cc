@@ -54,12 +54,13 @@ TEST(CoulombSolver, SolvesRandomProblems)
     }
 }
 
-/** Limits with a kink, and with friction where nothing presses, in every state, by both methods. */
-TEST(CoulombSolver, SolvesLimitedAndCohesiveCones)
+/** Limits with a kink, with friction where nothing presses, and along a curve, in every state, by both methods. */
+TEST(CoulombSolver, SolvesLimitedCohesiveAndCurvedCones)
 {
   Vector<double> z, other, alpha;
-  for (const hpvi::FrictionLimit friction :
-       {hpvi::FrictionLimit{0., 0.3, 0.1}, hpvi::FrictionLimit{0.05, 0.3}})
+  for (const hpvi::FrictionLimit &friction :
+       {hpvi::FrictionLimit{0., 0.3, 0.1}, hpvi::FrictionLimit{0.05, 0.3},
+        hpvi::FrictionLimit{0., 0.5, infinity, [](const double p) { return 1. / (1. + 3. * p); }}})
     for (const bool bilateral : {false, true})
     {
       unsigned int stick = 0, capped = 0, open = 0, slip = 0, fell_back = 0;

@@ -78,7 +78,7 @@ invalid "Body upper/Grading levels = -1" -- "Body upper/Grading levels=-1"
 invalid "Body upper/Material = glass" "is no material of this scene" "subsection Material glass" -- "Body upper/Material=glass"
 invalid "Material third/Where" "is missing" -- "Material third/Density=1"
 invalid "Material soft" "Where" -- "Body upper/Material="
-invalid "Dimension = 3" "several bodies" -- "Dimension=3"
+invalid "Upper corner" "three finite numbers" -- "Dimension=3"
 
 # --- pairs of sides
 for sides in "" "upper.bottom" "upper.bottom, lower.top, lower.left" "upper.bottom; lower.top"; do

@@ -42,6 +42,51 @@ invalid "Adaptivity/Tolerance on = energy" "neither an error" -- "Adaptivity/Tol
 invalid "Error/Bound = last" "true, false or last step" -- "Error/Bound=last"
 invalid "Adaptivity/Indicator = bound" "Error/Bound = last step" "set residual" -- "Error/Bound=last step" "Adaptivity/Indicator=bound"
 
+# --- pretensions
+invalid "Pretension" "unknown subsection" "Pretension NAME" -- "Pretension/Force=1"
+invalid "Pretension a.b" "is no name" -- "Pretension a.b/Force=1"
+invalid "Pretension Bolt" "differs from Pretension bolt in case" -- "Pretension bolt/Force=1" "Pretension Bolt/Force=1"
+invalid "Pretension bolt/Preload" "unknown entry" -- "Pretension bolt/Preload=1"
+invalid "Pretension bolt/Through" "is missing" "two ends" -- "Pretension bolt/Force=1"
+invalid "Pretension bolt/Force" "is missing" "tension" -- "Pretension bolt/Through=3, 0; 3, 4"
+bolt() { # THROUGH WORD...
+  local through="$1"
+  shift
+  invalid "Pretension bolt/Through = $through" "$@" -- "Pretension bolt/Through=$through" "Pretension bolt/Force=2" \
+    "Boundary left/Traction=" "Boundary bottom/Contact=none" "Boundary bottom/Friction bound="
+}
+bolt "1, 2" "two points x1, y1; x2, y2"
+bolt "1, 2; 1, 2; 3, 4" "two points x1, y1; x2, y2"
+bolt "1, 2, 3; 1, 2, 3" "two points x1, y1; x2, y2"
+bolt "1, 2; 1, 2" "has no length"
+bolt "1, 5; 3, 5" "crosses no body" "a body between"
+bolt "0, 0; 4, 0" "runs along the boundary" "through the bolt"
+bolt "0, 0; 4, 4" "through the inside of a cell" "parallel to a side"
+bolt "3, 0; 3, 2" "ends inside of the body, at (3, 2)" "from boundary to boundary"
+bolt "0, 1; 4, 1" "has Displacement of Boundary right beside it, at (4, 1.5)" "swap its points"
+for force in 0 -3 nan x; do
+  invalid "Pretension bolt/Force = $force" "a positive number" -- "Pretension bolt/Through=3, 0; 3, 4" "Pretension bolt/Force=$force"
+done
+side() { # WORD ENTRY=VALUE...: what may not stand beside a cut
+  local word="$1"
+  shift
+  invalid "Pretension bolt/Through" "has $word of Boundary top beside it, at (2.5, 4)" "parallel to it where cells end" -- \
+    "Pretension bolt/Through=3, 0; 3, 4" "Pretension bolt/Force=2" "Boundary bottom/Contact=none" "Boundary bottom/Friction bound=" "$@"
+}
+side "a load" "Boundary top/Pressure=1"
+side "Spring" "Boundary top/Spring=1; 0"
+side "Rigid" "Boundary top/Rigid=true" "Boundary top/Displacement=0; 0" "Boundary top/Rotation=0"
+side "Displacement" "Boundary top/Displacement=0; free"
+side "friction" "Boundary top/Contact=bilateral" "Boundary top/Friction bound=1"
+invalid "Pretension stud/Through" "Pretension bolt" "swap its points" -- "Pretension bolt/Through=3, 0; 3, 4" "Pretension bolt/Force=2" \
+  "Pretension stud/Through=2, 4; 2, 0" "Pretension stud/Force=2" "Boundary bottom/Contact=none" "Boundary bottom/Friction bound="
+invalid "Pretension bolt/Through" "is not offered by the primal path" "reduced path" -- "Pretension bolt/Through=3, 0; 3, 4" "Pretension bolt/Force=2" \
+  "Boundary bottom/Friction bound=" "Solver/Path=primal" "Adaptivity/Method=hup2"
+invalid "Exact solution/Solution = stick-slip" "knows no Pretension" -- "Pretension bolt/Through=4, 3; 0, 3" "Pretension bolt/Force=2" \
+  "Boundary left/Traction=" "Boundary right/Displacement=0; free" "Exact solution/Solution=stick-slip"
+invalid "Pretension bolt/Through = 3, 0; 3, 4" "is not across the axis" "the same y" -- \
+  "Pretension bolt/Through=3, 0; 3, 4" "Pretension bolt/Force=2" "Material/Plane=axisymmetric" "Boundary bottom/Contact=none"
+
 # --- materials and parts of sides, which scenes name themselves
 invalid "Material a.b" "is no name" "letters" -- "Material a.b/Where=x"
 invalid "Material Soft" "differs from Material soft in case" -- "Material soft/Where=x" "Material Soft/Where=x"
@@ -395,6 +440,25 @@ invalid "Boundary bottom/Friction coefficient" "negative" "Coulomb's coefficient
   "${coulomb[@]}" "Boundary bottom/Friction coefficient=0.1-x"
 invalid "Boundary bottom/Friction coefficient" "not finite" -- \
   "${coulomb[@]}" "Boundary bottom/Friction coefficient=1/(x-1)"
+by_pressure() { # PART... -- COEFFICIENT ENTRY=VALUE...: what is said of a coefficient that uses p
+  local parts=()
+  while [ "$1" != -- ]; do
+    parts+=("$1")
+    shift
+  done
+  invalid "Boundary bottom/Friction coefficient" "${parts[@]}" -- "${coulomb[@]}" "Boundary bottom/Friction coefficient=$2" "${@:3}"
+}
+by_pressure "not an expression of x, y and p" -- "0.5/(1 + q)"
+by_pressure "not an expression of x, y, p and t" -- "0.5/(1 + p*q)" "Loading/Steps=2"
+by_pressure "uses t" -- "0.5/(1 + p*t)"
+by_pressure "is not finite under p = 0 at (0, 0)" "max(p, ...)" -- "0.3/p"
+by_pressure "negative" "needs mu_f >= 0" -- "p - 0.1"
+by_pressure "bend upwards from p = " "concave" -- "0.1 + 0.1*p"
+by_pressure "bend upwards" "concave" -- "0.1 + 0.1*sqrt(p)"
+by_pressure "fall from" " at (0, 0)" "with if(p < " -- "0.5 - 0.1*p" "Boundary left/Traction=0; -20"
+by_pressure "fall from" "(load step 2, t = 1)" -- "0.5 - 0.01*p" "Loading/Steps=2" "Boundary left/Traction=0; -if(t < 0.7, 1, 100)"
+invalid "Boundary bottom/Gap" "uses p" "Friction coefficient alone" -- "${open[@]}" "Boundary bottom/Gap=p"
+invalid "Boundary bottom/Friction bound" "uses p" -- "Boundary bottom/Friction bound=1 + p"
 both=("${open[@]}" "Boundary bottom/Friction bound=1" "Boundary bottom/Friction coefficient=0.3")
 invalid "Boundary bottom/Friction coefficient" "beside Friction bound" "keep" "Friction law = limited or cohesive" -- "${both[@]}"
 for law in limited cohesive; do
@@ -536,10 +600,10 @@ refused "$scratch/loop" "--output" -- "$scenes/base.prm" --output "$scratch/loop
 
 # --- an expression that misbehaves between the points at which it is tried: the run ends where it is
 # used and keeps the steps before
-misbehaves() { # STEPS WORD ENTRY=VALUE
+misbehaves() { # STEPS WORD ENTRY=VALUE [--set ENTRY=VALUE]...
   local row="hpvi --set $3" kept="$scratch/kept" status
   rows=$((rows + 1))
-  timeout 60 "$hpvi" "$scenes/base.prm" --set "$3" --set Adaptivity/Method=hup3 --set "Adaptivity/Maximum steps=5" \
+  timeout 60 "$hpvi" "$scenes/base.prm" --set "$3" "${@:4}" --set Adaptivity/Method=hup3 --set "Adaptivity/Maximum steps=5" \
     --set Output/VTU=false --output "$kept" >"$scratch/stdout" 2>"$scratch/stderr"
   status=$?
   [ $status -eq 1 ] || complain "$row" "exit status $status instead of 1"
@@ -548,9 +612,12 @@ misbehaves() { # STEPS WORD ENTRY=VALUE
   grep -qF -- "$2" "$scratch/stderr" || complain "$row" "stderr does not say: $2"
   grep -qF '"status": "failed"' "$kept/summary.json" || complain "$row" "summary.json does not say failed"
   grep -qF "  \"steps\": $1," "$kept/summary.json" || complain "$row" "summary.json does not hold $1 steps"
-  [ "$(find "$kept" -name 'mesh-*.svg' | wc -l)" -eq "$1" ] || complain "$row" "there are not $1 pictures"
+  [ "$(find "$kept" -name 'contact-*.csv' | wc -l)" -eq "$1" ] || complain "$row" "there are not $1 tables of contact"
 }
 misbehaves 1 "is not finite at (0.129" "Body force/Expression=if(abs(x-0.13)<0.001,sqrt(-1),0); 0"
+# Pressures beyond the loads, of 0.46 at a point of contact, under friction that falls from 0.3125 on.
+misbehaves 0 "under the pressure of 0.46" "Boundary bottom/Friction coefficient=0.5-0.8*p" --set "Boundary bottom/Contact=unilateral" \
+  --set "Boundary bottom/Gap=0.02*(x-2)^2" --set "Boundary bottom/Friction bound=" --set "Boundary left/Traction=" --set "Boundary top/Traction=0; -0.3"
 # What the first step finds comes before anything is written.
 refused "Body force/Expression = 1/(x-0.125); 0" "is not finite at (0.125, " -- "$scenes/base.prm" --set "Body force/Expression=1/(x-0.125); 0"
 early="Boundary bottom/Friction bound = 1+1.2*sin(16*pi*x)"
@@ -619,6 +686,7 @@ valid "contact without multiplier of degree 1" "${open[@]}" "Boundary bottom/Fri
 valid "friction alone" "Boundary bottom/Contact=tangential" "Boundary right/Displacement=0; -0.1"
 valid "Hertz's contact" "${hertz[@]}" "Boundary bottom/Gap=(x-2)^2/E"
 valid "partial slip" "${partial_slip[@]}" "Boundary bottom/Friction bound=sqrt(max(0, 1-(x-2)^2))"
+valid "friction by pressure" "${coulomb[@]}" "Boundary bottom/Friction coefficient=if(p < 0.1, 0.5, 0.05 / max(p, 1e-3) + 0*x)"
 valid "a load history" "Loading/Steps=3" "Boundary left/Traction=sin(t); x*t" "Boundary bottom/Friction bound=1-t"
 valid "a support that is round-off off the foundation" "${open[@]}" "Boundary bottom/Gap=" \
   "Boundary right/Displacement=0; 0.01*sin(2*pi)"

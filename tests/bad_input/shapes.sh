@@ -126,11 +126,11 @@ mesh() { # FILE WORD...
   check words --validate --set "Geometry/File=$file" "$scenes/mesh.prm"
 }
 mesh "$scratch/none.msh" "mesh.prm" "Geometry/File" "cannot be read" "check the name"
-mesh "$scratch/empty.msh" "is empty" "with Gmsh"
-mesh "$scratch/folder.msh" "is a directory" "name a mesh file"
+mesh "$scratch/empty.msh" "is empty" "write it anew"
+mesh "$scratch/folder.msh" "is a directory" "name a drawing or a mesh"
 mesh "$scratch/drawing.geo" "cannot be read or meshed" "as Gmsh says" "open it with gmsh"
-mesh "$scratch/binary.msh" "is a binary file" "-format msh41 -o ascii.msh"
-mesh "$scratch/cut.msh" "the file is cut short"
+mesh "$scratch/binary.msh" "has no cells in the plane" "give it a face"
+mesh "$scratch/cut.msh" "cannot be read or meshed" "save it anew"
 # Without names along its boundary a body cannot be held: with none at all, with points, with surfaces or inner curves alone.
 sed '/^1 [1345] "/d; s/^7$/3/; /^[0-9]* 1 2 [1345] /d' "$scenes/body.msh" >"$scratch/inner_curve.msh"
 for file in inner_curve; do
@@ -138,7 +138,7 @@ for file in inner_curve; do
   sed -i "/^\\\$Elements/{n;s/.*/$lines/}" "$scratch/$file.msh"
   mesh "$scratch/$file.msh" "the boundary of the body has no physical curve" 'Physical Curve("left") = {4};'
 done
-mesh "$scenes/ring.prm" "no mesh file of Gmsh" "\$MeshFormat"
+mesh "$scenes/ring.prm" "is no drawing" "and no mesh" "name such a file"
 mesh /dev/null "cannot be read"
 invalid "Geometry/Subdivisions = 2, 2" "whose coarse mesh is given" -- "Geometry/Subdivisions=2, 2"
 invalid "Geometry/File = " "names no mesh" "body.msh" -- "Geometry/File="
@@ -179,7 +179,7 @@ other="space has no other shape"
 declined ring.prm "ring sector" "$other"
 declined half_disc.prm "half disc" "$other"
 declined plate.prm "plate with hole" "$other"
-declined mesh.prm file "has no hexahedra"
+declined mesh.prm file "has no cells in space"
 base=ring.prm
 invalid "Geometry/Shape = ring sector" "Exact solution/Solution = smooth" "Error/Reference solution" -- "${free[@]}" "Exact solution/Solution=smooth" \
   "Boundary start/Contact=bilateral" "Boundary start/Friction bound=1" "Boundary inner/Pressure=" "Boundary inner/Displacement=exact" \

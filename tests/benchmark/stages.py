@@ -17,7 +17,7 @@ import sys
 import tempfile
 
 STAGES = "setup assemble factor qp recover estimate decide refine bound".split()
-QUIET = ("Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false")
+QUIET = ("Output/VTU=false", "Output/Contact tables=false")
 
 
 def run(program, scene, settings):

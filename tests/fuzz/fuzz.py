@@ -151,7 +151,7 @@ def write_corpus(directory, library):
                 text = text.replace(value, "body.msh") + (scene.parent / value).read_text()
         (directory / "corpus" / scene.name).write_text(text)
     words = {entry.rpartition("/")[2] for entry in library.entries} | {v for values in library.values.values() for v in values}
-    words |= set(mutator.NUMBERS) | set(mutator.FUNCTIONS) | {"subsection ", "set ", "end\n", "Boundary ", "Material ", "Body ", "Contact ", "Probe "}
+    words |= set(mutator.NUMBERS) | set(mutator.FUNCTIONS) | {"subsection ", "set ", "end\n", "Boundary ", "Material ", "Body ", "Contact ", "Probe ", "Pretension "}
     escaped = ["".join(c if c.isalnum() or c in " +-*/.,;()<>=^'_" else f"\\x{b:02x}" for b in word.encode() for c in [chr(b)]) for word in sorted(words) if word]
     (directory / "words").write_text("".join(f'"{word}"\n' for word in escaped if len(word) < 60))
 

@@ -10,7 +10,7 @@ import subprocess
 NUMBERS = """0 -0 1 -1 2 3 7 0.5 -0.5 0.1 1e-3 1e-8 1e3 1e8 1e30 1e-30 1e100 1e-101 1e200 -1e200 1e308 1.8e308 5e-324 1e-310 nan inf -inf
 +1 .5 5. 1e 0x10 99999999999 4294967296 -2147483649 007 1_000 180 360 -90 1e-5 1e5 1e-400 1,5 1;5 pi E 0.4999 0.499999999 1e-12""".split()
 FUNCTIONS = ["sin(3*x)", "cos(2*y)", "exp(-x)", "if(x<0.3,1,2)", "(x>0.5)", "x", "y", "x*y", "t", "sin(6*t)", "(1-t)", "max(0,x-0.4)", "(x-0.5)^2",
-             "abs(y-0.3)", "sqrt(x)", "1/x", "1/(x-0.5)", "log(x)", "1e-9", "1e9", "E", "nu", "mu", "z", "(0.49<x && x<0.51)", "x^40"]
+             "abs(y-0.3)", "sqrt(x)", "1/x", "1/(x-0.5)", "log(x)", "1e-9", "1e9", "E", "nu", "mu", "z", "(0.49<x && x<0.51)", "x^40", "p", "0.3/(1+p)"]
 TEXTS = ["", " ", "\t", "x", "sin(", ")", "1/0", "sqrt(-1)", "x=1", "x==1", "(1,2)", "\"a\"", "rand()", "free", "exact", "free; free", "0; free", "exact; exact",
          ";", ";;", ",", "\\", "'", "\u00a0", "\u2028", "\u202e", "\u00e9", "\u2212" + "1", "\x1b[31m", "\x7f", "0,\t1", "0,0; 1,0; 1,1; 0,1", "0,,1", "(" * 300, "1+" * 2000 + "1",
          "a" * 5000, "{", "true", "false", "none", "/", "..", "/dev/null", "%s%n", "$(ls)", "0.4<x<0.6", "x<y==(z", "&&", "left; right", "1; 2; 3", "0.1; -0.1", "x^1000", "rand_seed(1)", "x<1?2:3", "e", "1e200*x", "#", "\u0085", "\0",
@@ -40,7 +40,7 @@ def settings(text):
 def kind(path):
     """Where an entry stands, without the name that its section may have: "Boundary left/Gap" is "Boundary/Gap"."""
     section, _, entry = path.rpartition("/")
-    section = re.sub("^(Boundary|Material|Body(?! force)|Contact|Probe) .*", r"\1", section)
+    section = re.sub("^(Boundary|Material|Body(?! force)|Contact|Probe|Pretension) .*", r"\1", section)
     return f"{section}/{entry}" if section else entry
 
 
@@ -218,7 +218,7 @@ class Mutator:
         section, _, name = entry.rpartition("/")
         there = [line.strip()[len("subsection "):].split("#")[0].strip() for line in self.lines if line.strip().startswith("subsection ")]
         alike = [other for other in there if kind(other + "/") == kind(section + "/")]
-        if not alike and section in ("Body", "Contact", "Probe", "Geometry") and self.happens(0.8):
+        if not alike and section in ("Body", "Contact", "Probe", "Pretension", "Geometry") and self.happens(0.8):
             return  # of scenes of another kind; a section comes whole
         path = f"{self.choose(alike) if alike else section}/{name}".lstrip("/")
         self.spoilt.add(path)

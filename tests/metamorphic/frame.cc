@@ -48,6 +48,8 @@ std::string Frame::function(const std::string &function, const double factor) co
       const unsigned int k = c == 'X' ? 0 : 1;
       result += "(" + text(M[k][0]) + "*x + " + text(M[k][1]) + "*y + " + text(at_zero[k]) + ")";
     }
+    else if (c == 'P')
+      result += "(p/" + text(amplitude * stress) + ")";
     else
       result += c;
   return factor == 1. || result.empty() ? result : text(factor) + "*(" + result + ")";

@@ -51,7 +51,7 @@ struct Frame
   Point<2> point(const Point<2> &x) const;
   Point<2> point_back(const Point<2> &x) const;
 
-  /** @p function of X and Y as one of x and y, times @p factor. */
+  /** @p function of X, Y and the pressure P as one of x, y and p, times @p factor. */
   std::string function(const std::string &function, double factor) const;
 
   double energy() const

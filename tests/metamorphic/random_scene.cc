@@ -37,7 +37,9 @@ void choose_contact(RandomScene &scene, Side &side, const bool interferes, Dice 
   if (side.contact == "unilateral" && dice.happens(0.6))
     side.gap = interferes && dice.happens(0.5) ? dice.function(0.01) : dice.positive(0.02);
   if (side.contact != "tangential" && dice.happens(0.25))
-    side.coefficient = dice.happens(0.7) ? text(dice.number(0.05, 0.4)) : "0.1 + 0.2*X*Y";
+    side.coefficient = dice.happens(0.7)   ? text(dice.number(0.05, 0.4))
+                       : dice.happens(0.5) ? "0.1 + 0.2*X*Y"
+                                           : "0.3/(1 + P/" + text(0.02 * scene.young) + ")";
   else if (side.contact == "tangential" || dice.happens(0.8))
     side.bound = dice.positive(0.02 * scene.young * std::pow(10, dice.number(-1, 0.5)));
 }

@@ -29,7 +29,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Powers of stress and length, "point" for places, None for what no unit changes; by section and entry, else by entry.
 UNITS = {
     "Lower corner": "point", "Upper corner": "point", "Corners": "point", "Centre": "point", "Graded towards": "point", "At": "point",
-    "From": "point", "To": "point", "Radii": (0, 1), "Radius": (0, 1), "Size": (0, 1), "Mesh size": (0, 1), "Young's modulus": (1, 0), "Young's moduli": (1, 0),
+    "From": "point", "To": "point", "Through": "point", "Radii": (0, 1), "Radius": (0, 1), "Size": (0, 1), "Mesh size": (0, 1), "Young's modulus": (1, 0), "Young's moduli": (1, 0),
     "Shear moduli": (1, 0), "Density": (1, -1), "Body force/Expression": (1, -1), "Displacement": (0, 1), "Traction": (1, 0), "Pressure": (1, 0),
     "Shear": (1, 0), "Spring": (1, -1), "Force": (1, 1), "Moment": (1, 2), "Gap": (0, 1), "Closed within": (0, 1), "Friction bound": (1, 0), "Wear coefficient": (-1, 0),
     "Exact solution/Transition": "x", "Exact solution/Length": (0, 1), "Exact solution/Stick length": (0, 1)}
@@ -71,8 +71,8 @@ def column_units():
 class Telling:
     """x' = length (x + shift), stresses times stress; powers of two, so that no digit is lost but by the shift."""
 
-    def __init__(self, stress=1., length=1., shift=(0., 0., 0.)):
-        self.stress, self.length, self.shift = stress, length, shift
+    def __init__(self, stress=1., length=1., shift=(0., 0., 0.), is_revolved=False):
+        self.stress, self.length, self.shift, self.is_revolved = stress, length, shift, is_revolved
 
     def factor(self, powers):
         return self.stress**powers[0] * self.length**powers[1]
@@ -83,7 +83,7 @@ class Telling:
                          for point in text.split(";") if point.strip())
 
     def function(self, text, factor):
-        """Each component that is an expression, of x, y, z and moduli."""
+        """Each component that is an expression, of x, y, z, moduli and pressures."""
         def component(part):
             part = part.strip()
             if part in ("", "free", "exact"):
@@ -92,7 +92,7 @@ class Telling:
                 return repr(float(part) * factor)
             for d, letter in enumerate("xyz"):
                 part = re.sub(rf"\b{letter}\b", f"({'XYZ'[d]}*{1 / self.length!r} - ({self.shift[d]!r}))" if self.shift[d] else f"({'XYZ'[d]}*{1 / self.length!r})", part)
-            part = re.sub(r"\b(E|mu)\b", rf"(\1*{1 / self.stress!r})", part)
+            part = re.sub(r"\b(E|mu|p)\b", rf"(\1*{1 / self.stress!r})", part)
             part = re.sub(r"\b[XYZ]\b", lambda letter: letter[0].lower(), part)
             return part if factor == 1 else f"{factor!r}*({part})"
         return "; ".join(map(component, text.split(";")))
@@ -106,6 +106,8 @@ class Telling:
         if unit == "x":
             return repr(self.length * (float(text) + self.shift[0]))
         factor = 1. if unit is None else self.factor(unit)
+        if self.is_revolved and kind.endswith("/Force"):
+            factor *= self.length  # of the full turn
         if kind in EXPRESSIONS or kind.rpartition("/")[2] in EXPRESSIONS:
             return self.function(text, factor)
         return NUMBER.sub(lambda number: repr(float(number[0]) * factor), text)
@@ -138,7 +140,7 @@ def written(settings, order=None):
         sections.setdefault(section, []).append((entry, value))
     names = list(sections)
     if order:
-        keep = [name for name in names if name.split(" ")[0] in ("", "Material", "Body", "Contact", "Probe")]
+        keep = [name for name in names if name.split(" ")[0] in ("", "Material", "Body", "Contact", "Probe", "Pretension")]
         others = [name for name in names if name not in keep]
         order.shuffle(others)
         names = keep + others
@@ -278,7 +280,7 @@ class Scenes:
         def check(telling, other, flaws_of, other_files=files, order=None, first=(settings, one)):
             self.compare(name, telling, first[1], self.tables(other, other_files, order), flaws_of, (first[0], other), other_files)
 
-        units = Telling(2.**self.random.randint(-20, 20), 2.**self.random.randint(-10, 10))
+        units = Telling(2.**self.random.randint(-20, 20), 2.**self.random.randint(-10, 10), is_revolved=is_revolved)
         self.check_frame(check, "other units", units, settings, files, self.same(units, dimension, is_revolved, near, round_off))
         if quick:
             return True

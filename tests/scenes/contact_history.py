@@ -72,6 +72,37 @@ class ContactHistory(RunTest):
         self.assertNotIn("in the last cycle", " ".join(self.summary()["warnings"]))
         self.assertIn('timestep="2.25"', (self.out / "contact.pvd").read_text())
 
+    def test_contact_that_shakes_down(self):
+        """Friction of 0.5 is 5 times 0.1 of shear: the top comes to 0.28, so the bottom slips by 0.18, and no more."""
+        shear = "5*(0.02 + 0.08*sin(2*pi*t))"
+        self.run_settings({**SAWED, "Boundary top/Displacement": "0.2 + 0.08*sin(2*pi*t); free",
+                           "Boundary left/Traction": f"0; -{shear}", "Boundary right/Traction": f"0; {shear}"})
+        cycles = self.rows("cycles.csv")
+        self.assertEqual(len(cycles), 2)
+        self.expect(cycles[0], dissipated_energy=2 * 0.5 * 0.18)
+        self.expect(cycles[1], dissipated_energy=0)
+        self.assertNotIn("in the last cycle", " ".join(self.summary()["warnings"]))
+
+    def test_a_ratchet_reaches_its_steady_cycle(self):
+        """Each foot holds in one half of the cycle, and slides under 0.02 in the other: a force of 0.1 drives the block on. In the steady
+        cycle all of it has moved by one length l, by the work 0.1 l, of which 0.02 l is dissipated below each foot, 1 long."""
+        self.run_settings({**BLOCK, "Geometry/Subdivisions": "4, 2", "Adaptivity/Method": "hup3", "Loading/Steps": "2",
+                           "Loading/Until steady": "1e-8", "Loading/Maximum cycles": "100", "Boundary top/Traction": "0.05; 0",
+                           "Boundary bottom/Contact": "bilateral",
+                           "Boundary bottom/Friction bound": "if((x < 1) == (t < 0.7), 1, 0.02)"})
+        cycles = self.rows("cycles.csv")
+        self.assertGreater(len(cycles), 3)
+        self.assertLess(len(cycles), 100)
+        last = 2 * len(cycles)
+        before, after = ([float(row["tangential_displacement"]) for row in self.rows(f"contact-{step:02d}.csv")] for step in (last - 2, last))
+        lengths = [b - a for a, b in zip(before, after)]
+        length, tolerance = lengths[0], 1e-7 * lengths[0]  # what is left falls with the cycles, as dissipation, which has reached 1e-8
+        self.assertGreater(length, 0.001)
+        for one in lengths:
+            self.assertAlmostEqual(one, length, delta=tolerance)
+        self.assertAlmostEqual(float(cycles[-1]["work"]), 0.1 * length, delta=tolerance)
+        self.assertAlmostEqual(float(cycles[-1]["dissipated_energy"]), 0.04 * length, delta=tolerance)
+
     def test_cycles_that_are_too_few(self):
         self.run_settings({**SAWED, "Loading/Maximum cycles": "2"})
         self.assertEqual(len(self.rows("cycles.csv")), 2)

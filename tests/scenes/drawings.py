@@ -41,6 +41,8 @@ def gear(number, centre, axis, pitch=4., tip=4.6, hub=2.5, wide=0.6, teeth=12, p
 
 
 class Drawings(runs.RunTest):
+    file = "drawing.step"
+
     def draw(self, script):
         """A STEP file, saved by a script of Gmsh that this process of the program runs."""
         (self.home / "drawing.geo").write_text(KERNEL + script + 'Save "drawing.step";\n')
@@ -49,7 +51,7 @@ class Drawings(runs.RunTest):
 
     def scene(self, settings, bodies=()):
         """Bodies are surfaces by their numbers."""
-        file = {"Shape": "file", "File": "drawing.step"}
+        file = {"Shape": "file", "File": self.file}
         sections = {f"Body {name}": {**file, "Surfaces": k + 1} for k, name in enumerate(bodies)} or {"Geometry": file}
         entries = {f"{section}/{entry}": value for section, own in sections.items() for entry, value in own.items()}
         return self.written({**entries, **settings})
@@ -63,6 +65,8 @@ class Drawings(runs.RunTest):
         shown = runs.run_program([runs.PROGRAM, "--validate", self.scene(held, bodies)])
         found = re.findall(r"^boundary (\S+): .*length (\S+), from \((\S+), (\S+)\) to \((\S+), (\S+)\)", shown[1], re.M)
         self.assertTrue(found, shown)
+        for line in [f"body {body}: drawing.step, " for body in bodies] or ["body: drawing.step, "]:
+            self.assertIn(f"\n{line}a STEP file, lengths in mm, from (", shown[1])
         return {name: (float(length), ((float(a), float(b)), (float(c), float(d)))) for name, length, a, b, c, d in found}
 
     def curve(self, curves, *places, body="", length=None):
@@ -75,7 +79,7 @@ class Drawings(runs.RunTest):
 
     def forces(self, settings, bodies=()):
         """By name: Fx, Fy, normal; and the point about which moments are, with them."""
-        shown = self.run_scene("Output/VTU=false", "Output/Report=false", "Error/Bound=false", "Adaptivity/Maximum steps=4",
+        shown = self.run_scene("Output/VTU=false", "Error/Bound=false", "Adaptivity/Maximum steps=4",
                                scene=self.scene({"Material/Young's modulus": 1000, **settings}, bodies))
         moments = {name: (float(m), (float(x), float(y))) for name, m, x, y in
                    re.findall(r"^support (\S+): force .*, moment (\S+) about \((\S+) (\S+)\)", shown, re.M)}
@@ -170,4 +174,5 @@ BooleanIntersection(3) = { Surface{1}; Delete; }{ Surface{2}; Delete; };
         self.assertLess(abs(across), 1e-6 * abs(forces[middle][0]))
 
 
-unittest.main()
+if __name__ == "__main__":
+    unittest.main()

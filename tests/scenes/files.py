@@ -4,29 +4,13 @@ output, against closed forms and against each other."""
 
 import collections
 import math
-import re
 import signal
 import subprocess
 import unittest
-import xml.etree.ElementTree as ElementTree
 
 from runs import PROGRAM, SCENES, RunTest, read_vtu, size_limit
 
-SVG = "{http://www.w3.org/2000/svg}"
 STEPS = 4
-
-
-def picture(path):
-    """(corners, colour, digit, place of the digit) of every cell, largest cells first."""
-    group = ElementTree.parse(path).getroot().find(SVG + "g")
-    shapes, labels = group.findall(SVG + "path"), group.findall(SVG + "text")
-    cells = []
-    for shape, label in zip(shapes, labels, strict=True):
-        corners = [tuple(map(float, corner.split())) for corner in
-                   re.fullmatch("M(.*)Z", shape.get("d")).group(1).split("L")]
-        place = re.match(r"translate\((\S+) (\S+)\)", label.get("transform")).groups()
-        cells.append((corners, shape.get("fill"), int(label.text), tuple(map(float, place))))
-    return cells
 
 
 class Uniaxial(RunTest):
@@ -103,7 +87,6 @@ class Adaptive(RunTest):
             used = [p for p, number in count.items() if number > 0]
             self.assertEqual([min(used), max(used)], [int(row["p_min"]), int(row["p_max"])])
             self.check_vtu(step, row, count)
-            self.check_picture(step, count)
         self.assertGreater(len(used), 1)
         self.check_summary()
         self.check_printed()
@@ -115,24 +98,6 @@ class Adaptive(RunTest):
         self.assertEqual(min(grid["contact_friction"]), 0)
         squares = math.fsum(eta ** 2 for eta in grid["estimate"])
         self.assertTrue(math.isclose(math.sqrt(squares), float(row["estimate"]), rel_tol=1e-5))
-
-    def check_picture(self, step, count):
-        cells = picture(self.out / f"mesh-{step:02}.svg")
-        self.assertEqual(collections.Counter(digit for _, _, digit, _ in cells),
-                         {p: number for p, number in count.items() if number > 0})
-        colours = {digit: colour for _, colour, digit, _ in cells}
-        self.assertEqual(len(set(colours.values())), len(colours))
-        area = 0
-        for corners, colour, digit, (x, y) in cells:
-            self.assertEqual(colour, colours[digit])
-            left, right = min(c[0] for c in corners), max(c[0] for c in corners)
-            top, bottom = min(c[1] for c in corners), max(c[1] for c in corners)
-            self.assertTrue(math.isclose(x, (left + right) / 2) and
-                            math.isclose(y, (top + bottom) / 2))
-            area += (right - left) * (bottom - top)
-        brightness = [sum(int(colours[p][k:k + 2], 16) for k in (1, 3, 5)) for p in sorted(colours)]
-        self.assertEqual(brightness, sorted(brightness, reverse=True))
-        self.assertTrue(math.isclose(area, 800 ** 2, rel_tol=1e-6))  # the body fills its square
 
     def check_summary(self):
         summary, rows = self.summary(), self.rows()
@@ -151,7 +116,6 @@ class Adaptive(RunTest):
                 self.assertEqual(value or "", written)
             else:
                 self.assertEqual(value, float(written))
-        self.assertGreater(summary["seconds"].pop("report"), 0)  # of the run, and of none of its steps
         for stage, seconds in summary["seconds"].items():
             self.assertLess(abs(seconds - sum(float(row["seconds_" + stage]) for row in rows)),
                             1e-4 * seconds + 1e-12)
@@ -176,7 +140,7 @@ class Adaptive(RunTest):
             self.assertLess(abs(float(words[9]) - float(row["seconds"])), 0.0051)
         self.assertEqual(self.printed[head + 1 + STEPS], "")
         self.assertIn("stopped by Adaptivity/Maximum steps", self.printed)
-        self.assertEqual(self.printed[-1], f"results in {self.out}")
+        self.assertEqual(self.printed[-2:], [f"results in {self.out}", f"report: hpvi --report {self.out}"])
         for warning in self.summary()["warnings"]:
             self.assertIn("warning: " + warning, self.printed)
 

@@ -3,27 +3,21 @@
 files that parsers read and numbers that tell points apart."""
 
 import math
-import re
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 from runs import BAR, RunTest, read_vtu
 
-SVG = "{http://www.w3.org/2000/svg}"
 FAR = 1e6
-
-
-def texts(path):
-    return [element.text for element in ElementTree.parse(path).iter(SVG + "text")]
 
 
 class Labels(RunTest):
     def run_text(self, text):
-        """The bar with these lines before it; its printed title and the texts of its picture."""
+        """The bar with these lines before it; its printed title."""
         scene = self.home / "bar.prm"
         scene.write_bytes(text + BAR.encode())
         printed = self.run_scene(scene=scene)
-        return printed.splitlines()[1], texts(self.out / "mesh-01.svg")
+        return printed.splitlines()[1]
 
     def test_titles_of_any_bytes(self):
         titles = {b"Gr\xf6\xdfe": "Größe", "Größe 三".encode(): "Größe 三",
@@ -32,14 +26,13 @@ class Labels(RunTest):
                   b"end\xe2\x82": "endâ ", "c1\u0085, \uffff".encode(): "c1 , \ufffd",
                   "\U0001f600".encode(): "\U0001f600"}
         for title, shown in titles.items():
-            printed, drawn = self.run_text(b"set Title = " + title + b"\n")
+            printed = self.run_text(b"set Title = " + title + b"\n")
             self.assertEqual(printed.rstrip(), shown.rstrip())
-            self.assertEqual(drawn[0].rstrip(), shown.rstrip())
             self.assertEqual(self.summary()["title"].rstrip(), shown.rstrip())
             read_vtu(self.out / "solution-01.vtu")
 
     def test_a_byte_order_mark_is_no_part_of_the_first_line(self):
-        self.assertEqual(self.run_text(b"\xef\xbb\xbfset Title = marked\n")[0].rstrip(), "marked")
+        self.assertEqual(self.run_text(b"\xef\xbb\xbfset Title = marked\n").rstrip(), "marked")
 
     def test_a_title_from_the_name_of_a_file_survives_scene_prm(self):
         for name, title in (("a#b", "a_b"), ("ends\\", "ends_"), ("two\nlines", "two_lines")):
@@ -52,8 +45,7 @@ class Labels(RunTest):
             self.assertEqual((again / "scene.prm").read_text(), (self.out / "scene.prm").read_text())
 
     def test_units_of_any_bytes(self):
-        drawn = self.run_text(b"subsection Units\nset Length = \xb5\x02m\nset Stress = <\xb5&\"\nend\n")[1]
-        self.assertIn("x [µ m]", drawn)
+        self.run_text(b"subsection Units\nset Length = \xb5\x02m\nset Stress = <\xb5&\"\nend\n")
         self.assertEqual(self.summary()["units"], {"length": "µ m", "stress": "<µ&\""})
         fields = {field.get("Name"): field.get("units") for field in
                   ElementTree.parse(self.out / "solution-01.vtu").iter("DataArray")}
@@ -64,9 +56,7 @@ class Labels(RunTest):
         self.assertIsNone(keys["degree"])
 
     def test_no_units_are_no_label(self):
-        drawn = self.run_text(b"")[1]
-        self.assertIn("x", drawn)
-        self.assertIn("y", drawn)
+        self.run_text(b"")
         self.assertEqual(self.summary()["units"], {"length": "", "stress": ""})
         for words in (b"units=", b"UNITS"):
             self.assertNotIn(words, (self.out / "solution-01.vtu").read_bytes())
@@ -78,43 +68,25 @@ class Labels(RunTest):
                             ("semicoercive", ("mm", "kN/mm^2")), ("smooth", ("1", "E"))):
             self.run_scene("Adaptivity/Maximum steps=1", scene=self.scene.parent / f"{name}.prm")
             self.assertEqual(tuple(self.summary()["units"].values()), units)
-            self.assertIn(f"x [{units[0]}]", texts(self.out / "mesh-01.svg"))
 
 
 class Coordinates(RunTest):
     def run_bar(self, x, y, *settings):
         self.run_scene(f"Geometry/Lower corner={x!r}, {y!r}",
                        f"Geometry/Upper corner={x + 2!r}, {y + 1!r}", *settings, scene=self.bar())
-        return read_vtu(self.out / "solution-01.vtu")["points"], texts(self.out / "mesh-01.svg")
+        return read_vtu(self.out / "solution-01.vtu")["points"]
 
     def test_far_bodies_keep_their_points(self):
         thirds = "Geometry/Subdivisions=3, 1"  # no short binary fractions, which any rounding keeps
-        near, ticks = self.run_bar(0., 0., thirds)
+        near = self.run_bar(0., 0., thirds)
         for k, x in enumerate(sorted({round(x, 12) for x, y, z in near})):
             self.assertLess(abs(x - k / 3), 1e-12)
-        far, far_ticks = self.run_bar(FAR, -FAR, thirds)
+        far = self.run_bar(FAR, -FAR, thirds)
         self.assertEqual(len(near), len(far))
         for (x, y, _), (far_x, far_y, z) in zip(near, far):
             self.assertLess(abs(far_x - FAR - x), 1e-9)
             self.assertLess(abs(far_y + FAR - y), 1e-9)
             self.assertEqual(z, 0)
-        self.assertEqual([tick.replace(" - 1000000", "").replace(" + 1000000", "")
-                          for tick in far_ticks], ticks)
-        self.assertIn("x - 1000000", far_ticks)
-        self.assertIn("y + 1000000", far_ticks)
-
-    def test_ticks_differ_at_any_distance(self):
-        for x in (900., 19999.5, 123456.7, -3.25e8):
-            drawn = self.run_bar(x, 0.)[1]
-            label = next(text for text in drawn if re.match(r"x( [-+] [0-9]+)?$", text))
-            sign, offset = (label.split()[1:] + ["+", "0"])[:2]
-            ticks = [float(text) for text in drawn[:drawn.index(label)]
-                     if re.match(r"-?[0-9.]+$", text)][2:]  # behind the degrees of two cells
-            self.assertEqual(len(set(ticks)), len(ticks))
-            self.assertGreater(len(ticks), 5)
-            values = [tick + float(offset) * (1 if sign == "-" else -1) for tick in ticks]
-            self.assertLess(abs(values[-1] - values[0] - 2), 0.5)
-            self.assertTrue(x - 1e-6 <= values[0] and values[-1] <= x + 2 + 1e-6)
 
     def test_deep_cells_keep_their_size(self):
         self.run_scene("Geometry/Graded towards=2, 0", "Geometry/Grading levels=36",

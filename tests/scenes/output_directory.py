@@ -8,7 +8,7 @@ import unittest
 
 from runs import RunTest, result_names
 
-QUIET = ("Output/VTU=false", "Output/Mesh picture=false", "Output/Contact tables=false", "Output/Report=false")
+QUIET = ("Output/VTU=false", "Output/Contact tables=false")
 SHORT = "Adaptivity/Maximum steps=2"
 LONG = "Adaptivity/Maximum steps=4"
 
@@ -45,7 +45,7 @@ class OutputDirectory(RunTest):
     def test_a_foreign_file_of_a_results_name_is_refused(self):
         self.out.mkdir()
         for name in ("scene.prm", "convergence.csv", "degrees.csv", "forces.csv", "contact-17.csv",
-                     "mesh-123.svg", "solution-01.vtu", "solution.pvd", "contact-17.vtu", "contact.pvd"):
+                     "solution-01.vtu", "solution.pvd", "contact-17.vtu", "contact.pvd"):
             (self.out / name).write_text("mine")
             self.refuse(words=[f"output directory '{self.out}'", name, "--output"])
             (self.out / name).unlink()
@@ -143,10 +143,10 @@ class OutputDirectory(RunTest):
         self.assertEqual(self.summary()["scene_file"], str(second))
 
     def test_steps_are_listed_as_ranges(self):
-        self.run_scene(LONG, "Output/Mesh picture=false")
+        self.run_scene(LONG)
         self.assertEqual(self.summary()["files"],
                          ["contact-{01..04}.csv", "contact-{01..04}.vtu", "contact.pvd", "convergence.csv", "degrees.csv", "forces.csv",
-                          "report.html", "scene.prm", "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
+                          "scene.prm", "solution-{01..04}.vtu", "solution.pvd", "state.dat", "summary.json"])
 
     def test_the_last_step_alone(self):
         last = "Output/Steps=last"
@@ -156,7 +156,7 @@ class OutputDirectory(RunTest):
         self.assertEqual(self.names(), [name for name in result_names(4) if "0" not in name or "04" in name])
         self.assertEqual(self.files(), self.names())
         self.assertEqual(len(self.rows()), 4)
-        for name in ("contact-04.csv", "mesh-04.svg", "solution-04.vtu", "degrees.csv"):
+        for name in ("contact-04.csv", "solution-04.vtu", "degrees.csv"):
             self.assertEqual((self.out / name).read_bytes(), every[name])
         self.assertEqual((self.out / "solution.pvd").read_text().count("solution-"), 1)
         self.assertEqual((self.out / "contact.pvd").read_text().count("contact-04.vtu"), 1)
@@ -166,7 +166,7 @@ class OutputDirectory(RunTest):
         run.communicate()
         steps = len(self.rows())
         self.assertGreaterEqual(steps, 2)
-        for name in (f"contact-{steps:02}.csv", f"mesh-{steps:02}.svg", f"solution-{steps:02}.vtu"):
+        for name in (f"contact-{steps:02}.csv", f"solution-{steps:02}.vtu"):
             self.assertIn(name, self.names())
         self.assertNotIn("contact-01.csv", self.names())
 

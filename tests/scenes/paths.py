@@ -13,7 +13,7 @@ MPIRUN = [sys.argv.pop(1), "--oversubscribe", "--bind-to", "none"]
 # Meshes that depend on the indicator alone, a discrete problem that both paths have, solved to the end.
 ALIKE = ("Solver/Normal contact=multiplier", "Solver/Primal tolerance=1e-11", "Adaptivity/Start degree=2",
          "Adaptivity/Indicator=residual", "Adaptivity/Tolerance=0", "Adaptivity/Maximum steps=3", "Error/Bound=false",
-         "Output/VTU=false", "Output/Mesh picture=false")
+         "Output/VTU=false")
 # scene, settings, processes
 TABLE = (
     ("han-6-12", ("Adaptivity/Method=hap2",), 3),

@@ -23,6 +23,7 @@ HISTORIES = (
     ("fretting", ("Loading/Steps=5", "Loading/Adapt=first step", "Adaptivity/Tolerance=0.1", "Output/Steps=last")),
     ("fretting", ("Loading/Steps=4", "Adaptivity/Maximum steps=3", "Boundary bottom/Friction coefficient=",
                   "Boundary bottom/Friction bound=2", "Adaptivity/Tolerance=0.05", "Output/VTU=false")),
+    ("bolted-flange", ("Loading/Steps=3", "Adaptivity/Maximum steps=2", "Output/VTU=false")),
     ("lap-joint", ("Loading/Steps=3", "Adaptivity/Maximum steps=2", "Output/VTU=false")),
     ("fretting", ("Loading/Steps=3", "Solver/Path=primal", "Adaptivity/Method=hap2", "Adaptivity/Start degree=2",
                   "Boundary bottom/Contact=bilateral", "Boundary bottom/Friction coefficient=",
@@ -47,8 +48,6 @@ class Resume(RunTest):
         result = self.contents()
         for name in ("convergence.csv", "state.dat", "summary.json"):
             result.pop(name)
-        if "report.html" in result:
-            result["report.html"] = re.sub(rb'<p class="times">.*', b"", result["report.html"])
         rows = [{key: value for key, value in row.items() if not key.startswith(TIMES)}
                 for row in self.rows()]
         summary = self.summary()
@@ -164,7 +163,8 @@ class Resume(RunTest):
         state, scene = self.out / "state.dat", self.out / "scene.prm"
         text = state.read_text()
         for other, words in ((text[:-20], "cut short or altered"), ("mine", "does not begin with"),
-                             (text.replace("format", "shape", 1), "does not begin with")):
+                             (text.replace("format", "shape", 1), "does not begin with"),
+                             (re.sub("format [0-9]+", "format 7", text, count=1), "another version of hpvi has written it")):
             state.write_text(other)
             self.assertIn(words, self.go_on(STEPS, status=1))
         state.write_text(text)

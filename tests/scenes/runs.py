@@ -160,7 +160,6 @@ class RunTest(unittest.TestCase):
         self.assertEqual(self.files(), self.names())
         for step in range(1, steps + 1):
             self.rows(f"contact-{step:02}.csv")
-            ElementTree.parse(self.out / f"mesh-{step:02}.svg")
             read_vtu(self.out / f"solution-{step:02}.vtu")
             read_vtu(self.out / f"contact-{step:02}.vtu")
         return steps
@@ -175,10 +174,10 @@ def expanded(entry):
 
 
 def result_names(steps):
-    names = ["convergence.csv", "degrees.csv", "forces.csv", "report.html", "scene.prm", "summary.json", "contact.pvd", "solution.pvd",
+    names = ["convergence.csv", "degrees.csv", "forces.csv", "scene.prm", "summary.json", "contact.pvd", "solution.pvd",
              "state.dat"]
     for step in range(1, steps + 1):
-        names += [f"contact-{step:02}.csv", f"contact-{step:02}.vtu", f"mesh-{step:02}.svg", f"solution-{step:02}.vtu"]
+        names += [f"contact-{step:02}.csv", f"contact-{step:02}.vtu", f"solution-{step:02}.vtu"]
     return sorted(names)
 
 

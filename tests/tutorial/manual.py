@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What the pages of doc/manual tell a user to write is what the program takes: their scenes are valid, the scenes and entries that
-they name exist, and each page is built, found from the others, and named by an anchor of its own.
+"""What the pages of doc/manual tell a user to write is what the program takes: their scenes are valid, the scenes, entries, options and
+commands that they name exist, and each page is built, found from the others, and named by an anchor of its own.
 
 manual.py HPVI ROOT
 """
@@ -53,6 +53,24 @@ def name_problems(name, text, known):
     return problems
 
 
+def command_problems(name, text):
+    """Commands in words and code have options and files that are there; what is written in capitals the reader replaces."""
+    options = set(re.findall(r"--[a-z-]+", subprocess.run([HPVI, "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout))
+    cases = {word for line in re.findall(r"^  ([\w| -]+)\)$", (ROOT / "run").read_text(), re.M) for word in line.split(" | ")}
+    made = {"first.prm", *re.findall(r"`(\w+\.\w+)`:\n", text), "scene.prm"}  # by the reader, by a run
+    problems = []
+    for command in re.findall(r"(?:`|^(?:\$ )?)((?:\./run|(?:build/)?hpvi) [^`\n#]*)", text, re.M):
+        program, *words = command.replace('"', "").split()
+        if not words or (program == "./run" and words[0] in cases):  # with options of its own
+            continue
+        problems += [f"{name}.md: {command.strip()}: there is no {word}" for word in words
+                     if (re.fullmatch(r"--[a-z-]+", word) and word not in options)
+                     or (re.fullmatch(r"[\w./-]+\.(?:prm|inp|step)", word) and not re.search(r"[A-Z]{3}", word)
+                         and word not in made and not (ROOT / word).exists())
+                     or (program == "./run" and re.fullmatch(r"[a-z]+", words[0]))]
+    return problems
+
+
 def main():
     known, problems = entries(), []
     header, builder = (ROOT / "doc/manual/header.html").read_text(), (ROOT / "doc/manual.py").read_text()
@@ -62,11 +80,13 @@ def main():
     if len(re.findall(r"`\w+\.prm`:\n\n```\n", "".join(PAGES.values()))) < 3:
         problems.append("the manual's scenes are not found any more")
     for name, text in PAGES.items():
-        problems += scene_problems(name, text) + name_problems(name, text, known)
+        problems += scene_problems(name, text) + name_problems(name, text, known) + command_problems(name, text)
         if f"{name}.html" not in header or f'"{name}"' not in builder:
             problems.append(f"{name}.md is not in header.html, or not built by doc/manual.py")
-        if name not in ("index", "tutorial") and f"{{#{name}}}" not in text:
-            problems.append(f"{name}.md has no anchor {{#{name}}}")
+        if name not in ("index", "tutorial") and f"{{#{name}}}" not in text and f'<a id="{name}">' not in text:
+            problems.append(f"{name}.md has no anchor {name}")
+    for name in ("README", "CONTRIBUTING", "doc/python", "prm/README"):
+        problems += command_problems(name, (ROOT / f"{name}.md").read_text())
     sys.exit("\n".join(problems) or 0)
 
 

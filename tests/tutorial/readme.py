@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What README.md shows to a new user works: its first scene runs, in ten lines at most, with a bound of the error and
-no friction on what is open, and with Coulomb's friction; the program has the options that it names. What it and all pages of the
-repository link to is there, places in pages included.
+"""What README.md shows to a new user works: its first scene runs, in ten lines at most, prints what stands below it, with a bound of
+the error and no friction on what is open, and with Coulomb's friction; so does its scene of two bodies from a drawing, of ten
+entries; the program has the options that it names.
 
 readme.py HPVI ROOT
 """
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -36,36 +37,65 @@ def check_run(what, scene, has_bound):
             sys.exit(f"README.md: {what} has {'no' if has_bound else 'a'} bound of its error")
 
 
+def near(shown, printed):
+    """Equal but for numbers, which differ by a hundredth at most."""
+    number = r"[-+]?\d[\d.]*(?:e[-+]\d+)?"
+    return re.sub(number, "N", shown) == re.sub(number, "N", printed) and all(
+        abs(float(a) - float(b)) <= 0.01 * abs(float(b))
+        for a, b in zip(re.findall(number, shown), re.findall(number, printed)))
+
+
+def check_output(shown):
+    """The lines that README shows are printed, in this order."""
+    with tempfile.TemporaryDirectory() as directory:
+        (pathlib.Path(directory) / "first.prm").write_text(re.search(r"`first\.prm`.*?```\n(.*?)```", README, re.S)[1])
+        printed = iter(subprocess.run([HPVI, "first.prm"], cwd=directory, text=True, stdout=subprocess.PIPE, check=True).stdout.splitlines())
+    for line in shown.splitlines():
+        if not any(near(line, one) for one in printed):
+            sys.exit(f"README.md: first.prm does not print, after the line above, {line}")
+
+
+def check_commands(scene):
+    """What README says to do with first.prm runs: it is drawn, described, solved and continued."""
+    with tempfile.TemporaryDirectory() as directory:
+        (pathlib.Path(directory) / "first.prm").write_text(scene)
+        commands = re.findall(r"`(?:\./run|build/hpvi) (first\.prm[^`]*|--resume [^`]*)`", README)
+        for command in commands:
+            steps = 3 if "--resume" in command else 2
+            done = subprocess.run([HPVI, *command.split(), "--set", f"Adaptivity/Maximum steps={steps}"], cwd=directory, text=True,
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            if done.returncode != 0:
+                sys.exit(f"README.md: {command} fails\n{done.stdout}")
+        if len(commands) < 4:
+            sys.exit(f"README.md: of what to do with first.prm there is only {commands}")
+
+
+def check_two_bodies():
+    """The scene of two bodies from a drawing has ten entries, and is solved."""
+    scene = re.search(r"`lug\.prm`.*?```\n(.*?)```", README, re.S)[1]
+    if scene.count("  set ") != 10:
+        sys.exit("README.md: lug.prm has not ten entries")
+    with tempfile.TemporaryDirectory() as directory:
+        (pathlib.Path(directory) / "lug.prm").write_text(scene)
+        shutil.copy(ROOT / "prm/meshes/lug.step", directory)
+        done = subprocess.run([HPVI, "lug.prm", "--set", "Adaptivity/Maximum steps=2"], cwd=directory, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode != 0 or not re.search("^  slip from", done.stdout, re.M):
+            sys.exit(f"README.md: lug.prm is not solved, or does not slip\n{done.stdout}")
+
+
 def check_first_scene():
-    scene = re.search(r"`first\.prm`.*?```\n(.*?)```.*?```\n(subsection Boundary bottom.*?)```", README, re.S)
+    scene = re.search(r"`first\.prm`.*?```\n(.*?)```.*?^```\n(contact.*?)```.*?^```\n(subsection Boundary bottom.*?)```", README, re.S | re.M)
     if not scene:
         sys.exit("README.md: there is no first.prm, or none with Coulomb's friction")
     n_lines = len(scene[1].splitlines())
     if n_lines > 10:
         sys.exit(f"README.md: first.prm has {n_lines} lines, more than 10")
     check_run("first.prm", scene[1], True)
-    coulomb = re.sub(r"subsection Boundary bottom.*?\nend\n", lambda _: scene[2], scene[1], flags=re.S)
+    check_commands(scene[1])
+    check_output(scene[2])
+    coulomb = re.sub(r"subsection Boundary bottom.*?\nend\n", lambda _: scene[3], scene[1], flags=re.S)
     check_run("first.prm with Coulomb's friction", coulomb, True)
-
-
-def places(path):
-    """What links may name behind a hash: headings as GitHub calls them, and anchors of the manual."""
-    text = re.sub(r"^```.*?^```", "", path.read_text(), flags=re.S | re.M)
-    headings = re.findall(r"^#+ (.*?)(?: \{#[\w-]+\})?$", text, re.M)
-    return set(re.findall(r"\{#([\w-]+)\}", text)) | {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
-
-
-def missing_links():
-    found, n = [], 0
-    for page in [*ROOT.glob("*.md"), *(ROOT / "prm").glob("*.md"), *(ROOT / "doc").rglob("*.md")]:
-        text = re.sub(r"^```.*?^```|`[^`\n]*`", "", page.read_text(), flags=re.S | re.M)
-        for target in re.findall(r"\]\(([^)\s:@]+)\)|(?:src|href)=\"([^\":$]+)\"", text):
-            n += 1
-            name, _, place = "".join(target).partition("#")
-            path = page.parent / name if name else page
-            if not path.exists() or (place and place not in places(path)):
-                found.append(f"{page.relative_to(ROOT)} links to {''.join(target)}, which is not there")
-    return found if n > 300 else [f"of the links of all pages {n} are found"]
 
 
 def missing_options():
@@ -75,10 +105,11 @@ def missing_options():
 
 
 def main():
-    missing = missing_links() + missing_options()
+    missing = missing_options()
     if missing:
         sys.exit("\n".join(missing))
     check_first_scene()
+    check_two_bodies()
 
 
 if __name__ == "__main__":

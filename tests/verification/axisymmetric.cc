@@ -286,27 +286,32 @@ TEST(Axisymmetric, ScaledAndMirrored)
   }
 }
 
-/** A cylinder of radius 1 and height 2 by a mesh file, of which @p axis has x of the lowest node and of the middle one there. */
-std::string cylinder_file(const std::array<double, 2> &axis)
+/** A cylinder of radius 1 and height 2 by a mesh file, of which @p axis has x of the lowest node and of the middle one there;
+ * the edges between them are a group, or in none. */
+std::string cylinder_file(const std::array<double, 2> &axis, const bool is_named = true)
 {
-  const auto file = std::filesystem::path(::testing::TempDir()) / "hpvi-cylinder.msh";
+  const auto file = std::filesystem::path(::testing::TempDir()) /
+                    ("hpvi-cylinder" + in_digits(axis[0]) + in_digits(axis[1]) +
+                     (is_named ? "" : "-unnamed") + ".msh");
   std::ofstream(file)
-      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"left\"\n1 2 "
-         "\"bottom\"\n1 3 \"right\"\n2 4 \"body\"\n$EndPhysicalNames\n$Nodes\n6\n1 "
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n"
+      << (is_named ? "4\n1 1 \"left\"\n" : "3\n")
+      << "1 2 \"bottom\"\n1 3 \"right\"\n2 4 \"body\"\n$EndPhysicalNames\n$Nodes\n6\n1 "
       << in_digits(axis[0]) << " 0 0\n2 1 0 0\n3 1 1 0\n4 " << in_digits(axis[1])
-      << " 1 0\n5 1 2 0\n6 " << in_digits(axis[0])
-      << " 2 0\n$EndNodes\n$Elements\n7\n1 1 2 1 1 1 4\n2 1 2 1 1 4 6\n3 1 2 2 2 1 2\n"
-         "4 1 2 3 3 2 3\n5 1 2 3 3 3 5\n6 3 2 4 4 1 2 3 4\n7 3 2 4 4 4 3 5 6\n$EndElements\n";
+      << " 1 0\n5 1 2 0\n6 " << in_digits(axis[0]) << " 2 0\n$EndNodes\n$Elements\n"
+      << (is_named ? "7\n1 1 2 1 1 1 4\n2 1 2 1 1 4 6\n" : "5\n")
+      << "3 1 2 2 2 1 2\n4 1 2 3 3 2 3\n5 1 2 3 3 3 5\n6 3 2 4 4 1 2 3 4\n7 3 2 4 4 4 3 5 "
+         "6\n$EndElements\n";
   return file.string();
 }
 
 /** A drawing has its axis at x = 0 to round-off: what is nearer than 1e-10 of the size is there, and u_x = 0. */
 TEST(Axisymmetric, AxisOfADrawing)
 {
-  const auto file = [](const double one, const double other)
+  const auto file = [](const double one, const double other, const bool is_named = true)
   {
     return Overrides{{"Geometry/Shape", "file"},
-                     {"Geometry/File", cylinder_file({{one, other}})},
+                     {"Geometry/File", cylinder_file({{one, other}}, is_named)},
                      {"Geometry/Subdivisions", "1, 1"}};
   };
   const auto quadrilateral = [](const std::string &one, const std::string &other) {
@@ -335,6 +340,13 @@ TEST(Axisymmetric, AxisOfADrawing)
         << row[1].second;
     EXPECT_NEAR(steps_of(entries, 2, 1)[0].J, J, 1e-12) << row[1].second;
   }
+  // Edges there that are in no group need no support of their own.
+  EXPECT_NEAR(steps_of(turned + file(0, 0, false) +
+                           Overrides{{"Boundary bottom/Symmetry", "true"},
+                                     {"Boundary right/Pressure", "1"}},
+                       2, 1)[0]
+                  .J,
+              J, 1e-12);
   for (const Overrides &row : {file(-1e-9, 0), quadrilateral("-1e-9", "0")})
     EXPECT_THROW(scene_of(turned + row + Overrides{{"Boundary bottom/Symmetry", "true"}}),
                  InputError);

@@ -552,8 +552,68 @@ Scene<2> pushed(const std::string &steps)
                    {"Adaptivity/Maximum steps", steps}});
 }
 
+/** A soft tube in another one around the axis, whose meshes do not match. */
+Scene<2> tubes(const Overrides &joint, const std::string &steps)
+{
+  Overrides entries{given::block("in", "1, 0", "2, 1", "1, 2"),
+                    given::block("out", "2, -0.3", "3, 1.2", "1, 2"),
+                    {"Body in/Material", "soft"},
+                    given::elastic("1", "0.3"),
+                    given::elastic("0.5", "0.2", "soft"),
+                    {"Material/Plane", "axisymmetric"},
+                    {"Contact fit/Between", "in.right, out.left"},
+                    {"Boundary in.top/Traction", "0.01; 0.001"},
+                    {"Boundary out.bottom/Displacement", "free; 0"},
+                    {"Error/Bound", "true"},
+                    {"Adaptivity/Method", "hpa3"},
+                    {"Adaptivity/Start degree", "3"},
+                    {"Adaptivity/Maximum steps", steps}};
+  for (const auto &entry : joint)
+    entries.emplace_back("Contact fit/" + entry.first, entry.second);
+  return scene_of(entries);
+}
+
+/** A body of revolution with loads of all kinds, on springs and in a rigid seat, of cells that are no rectangles. */
+Scene<2> turned(const std::string &steps)
+{
+  return scene_of({{"Geometry/Shape", "quadrilateral"},
+                   {"Geometry/Corners", "1, 0; 2.3, 0.2; 2.3, 1.1; 1.2, 1"},
+                   {"Geometry/Subdivisions", "2, 2"},
+                   given::elastic("1", "0.3"),
+                   {"Material/Plane", "axisymmetric"},
+                   {"Material/Initial strain", "0.01*x; 0.02*y; 0; 0.01*exp(y)"},
+                   {"Body force/Expression", "0.1*exp(y); 0.02*x"},
+                   {"Boundary left/Pressure", "0.05 + 0.1*y*y"},
+                   {"Boundary bottom/Spring", "3; 1"},
+                   {"Boundary right/Contact", "unilateral"},
+                   {"Boundary right/Gap", "0.02*y"},
+                   {"Boundary right/Friction bound", "0.01*x"},
+                   {"Error/Bound", "true"},
+                   {"Adaptivity/Method", "hpa3"},
+                   {"Adaptivity/Start degree", "3"},
+                   {"Adaptivity/Maximum steps", steps}});
+}
+
+/** A cylinder with its axis, under its own weight on a block, rubbing on it. */
+Scene<2> pillar(const std::string &steps)
+{
+  return scene_of({given::block("pillar", "0, 0", "1, 1", "2, 2"),
+                   given::block("base", "0, -2", "2, 0", "4, 2"),
+                   given::elastic("1", "0.3"),
+                   {"Material/Plane", "axisymmetric"},
+                   {"Body force/Expression", "0; -0.002"},
+                   {"Boundary pillar.top/Displacement", "free; -0.01"},
+                   {"Boundary base.bottom/Displacement", "0; 0"},
+                   {"Contact joint/Between", "pillar.bottom, base.top"},
+                   {"Contact joint/Friction bound", "0.001"},
+                   {"Error/Bound", "true"},
+                   {"Adaptivity/Method", "hpa3"},
+                   {"Adaptivity/Start degree", "3"},
+                   {"Adaptivity/Maximum steps", steps}});
+}
+
 /**
- * From below and not from far, beside runs that are far finer: every law, the slave coarse, fine, soft and stiff; and contact along a
+ * From below and not from far, beside runs that are far finer: bodies of revolution; every law, the slave coarse, fine, soft and stiff; and contact along a
  * direction.
  */
 TEST(JointBound, BoundsTheErrorWhereTractionsAreGiven)
@@ -571,7 +631,14 @@ TEST(JointBound, BoundsTheErrorWhereTractionsAreGiven)
         {blocks("3, 2", "0.25", tied)},
         {blocks("5, 2", "10", sliding)},
         {blocks("5, 2", "10", pressed)},
-        {blocks("7, 1", "1", with_gap)}})
+        {blocks("7, 1", "1", with_gap)},
+        {turned},
+        {pillar},
+        {[&](const std::string &steps) { return tubes(tied, steps); }},
+        {[&](const std::string &steps) {
+          return tubes({{"Law", "unilateral"}, {"Gap", "-0.05"}, {"Friction bound", "0.002"}},
+                       steps);
+        }}})
   {
     SCOPED_TRACE(row++);
     const ReferenceFile reference(scene_with("10"));
@@ -645,6 +712,28 @@ TEST(JointBound, HoldsLamesEnergies)
     }
 }
 
+/** A ring between spheres in its seat: u = A R + B/R^2, the seat presses by 90.03 over a zone of the outer sphere (prm/press-ring-axi.prm). */
+TEST(JointBound, HoldsTheEnergyOfARingBetweenSpheres)
+{
+  const double a = 30, b = 40, E = 210000, nu = 0.3,
+               A_over_B = 2 * (1 - 2 * nu) / (1 + nu) / (a * a * a),
+               B = -0.02 / (A_over_B * b + 1 / (b * b)),
+               p = 2 * E * B / (1 + nu) * (1 / (b * b * b) - 1 / (a * a * a)),
+               J = p * 0.02 / 2 * 2 * numbers::PI * b * b; // the zone is as high as b
+  for (const std::string method : {"hup2", "hpa3"})
+    for (const Step &step :
+         run(scene_of({with({seated("1, 4")}, {{"Material/Plane", "axisymmetric"}}),
+                       {"Error/Bound", "true"},
+                       {"Adaptivity/Method", method},
+                       {"Adaptivity/Maximum steps", "4"}})))
+    {
+      EXPECT_LT(step.low, J);
+      EXPECT_GT(step.high, J * (1 - 1e-9));
+      EXPECT_LT(step.high - step.low, 2e-3 * J);
+      EXPECT_LT(step.bound, 0.05 * std::sqrt(2 * J));
+    }
+}
+
 /** Contact that ends along curves: intervals of all steps of two methods meet, and get narrow. */
 TEST(JointBound, MeetsItselfAlongCurves)
 {
@@ -667,12 +756,24 @@ TEST(JointBound, MeetsItselfAlongCurves)
                         {"Boundary rim/Contact", "unilateral"},
                         {"Boundary rim/Gap", "y/(1 - y)"},
                         {"Boundary rim/Friction bound", "0.002"}};
-  for (const Overrides &entries : {with(block, {{"Contact line/Between", "disc.arc, below.top"}}),
-                                   with(block, {{"Contact line/Between", "below.top, disc.arc"},
-                                                {"Contact line/Friction bound", "0.002"}}),
-                                   with(other, {{"Contact line/Between", "disc.arc, below.arc"},
-                                                {"Contact line/Friction bound", "0.002"}}),
-                                   alone})
+  // A ball of revolution, its pole in contact.
+  const Overrides ball{given::half_disc("Geometry", "0, 1", "1", "270"),
+                       given::elastic("1", "0.3"),
+                       {"Material/Plane", "axisymmetric"},
+                       {"Boundary lid/On", "arc"},
+                       {"Boundary lid/Where", "y - 1.70711"},
+                       {"Boundary lid/Displacement", "free; -0.01"},
+                       {"Boundary rim/On", "arc"},
+                       {"Boundary rim/Where", "0.29289 - y"},
+                       {"Boundary rim/Contact", "unilateral"},
+                       {"Boundary rim/Gap", "y/(1 - y)"}};
+  for (const Overrides &entries :
+       {ball, with(block, {{"Contact line/Between", "disc.arc, below.top"}}),
+        with(block, {{"Contact line/Between", "below.top, disc.arc"},
+                     {"Contact line/Friction bound", "0.002"}}),
+        with(other, {{"Contact line/Between", "disc.arc, below.arc"},
+                     {"Contact line/Friction bound", "0.002"}}),
+        alone})
   {
     double low = -std::numeric_limits<double>::infinity(), high = -low, n = 0;
     for (const std::string method : {"hup2", "hpa3"})

@@ -243,7 +243,7 @@ TEST(RunState, ThatIsNotWholeIsRefused)
     EXPECT_NE(
         damaged(text.substr(0, part * text.size() / 4)).find("state.dat: the run state is cut"),
         std::string::npos);
-  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 9\""),
+  EXPECT_NE(damaged("").find("does not begin with \"hpvi run state, format 10\""),
             std::string::npos);
   std::string altered = text;
   char &digit = altered[altered.find_last_of("12345678")];

@@ -3,7 +3,7 @@
 #include "discretisation.h"
 
 #include <hpvi/base/input_error.h>
-#include <hpvi/output/scene_picture.h>
+#include <hpvi/output/scene_json.h>
 #include <hpvi/reader/checks/checks.h>
 
 #include <map>
@@ -129,10 +129,10 @@ TEST(ContactDirection, HasArrowsAndWords)
 {
   Overrides entries = pressed();
   entries.emplace_back("Boundary bottom/Contact", "unilateral");
-  const std::string picture = scene_picture(scene_of(entries));
-  EXPECT_NE(picture.find("class=\"direction\" data-boundary=\"bottom\""), std::string::npos);
-  EXPECT_NE(picture.find("contact along (0.6 -0.8)"), std::string::npos);
+  const std::string json = scene_json(scene_of(entries));
+  EXPECT_NE(json.find("\"direction\": [0.6, -0.8]"), std::string::npos);
+  EXPECT_NE(json.find("contact along (0.6 -0.8)"), std::string::npos);
   entries.emplace_back("Boundary bottom/Contact direction", "");
-  EXPECT_EQ(scene_picture(scene_of(entries)).find("class=\"direction\""), std::string::npos);
+  EXPECT_EQ(scene_json(scene_of(entries)).find("\"direction\": ["), std::string::npos);
 }
 } // namespace

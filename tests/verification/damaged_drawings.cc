@@ -4,6 +4,8 @@
 
 #include <hpvi/reader/deck/deck_scene.h>
 
+#include <sys/wait.h>
+
 #include <cstdlib>
 #include <random>
 
@@ -81,6 +83,7 @@ TEST(DamagedDrawings, AreReadOrRefused)
         });
     EXPECT_EQ(message.find('\n'), std::string::npos) << file << n;
   }
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1); // no process is left, nor a file:
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 13);
 }
 } // namespace

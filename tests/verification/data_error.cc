@@ -4,6 +4,7 @@
 
 #include <hpvi/bound/data_error.h>
 #include <hpvi/bound/error_bound.h>
+#include <hpvi/plane/initial_stress.h>
 
 namespace
 {
@@ -209,6 +210,29 @@ TEST(DataErrorOfOneCell, PaysForInitialStrainsThatNoRuleKnows)
       internal_forces(scene, lab.displacement_space, lab.tables, solution.u).energy_product);
   EXPECT_GT(data.unresolved, 1e-3);
   EXPECT_GE(data.missed_work, 0.99 * data.unresolved * norm);
+}
+
+/** Of a body of revolution the strain around the axis counts as those in the plane do, and all of it with the way around. */
+TEST(InitialStressError, CountsTheWayAroundAnAxis)
+{
+  const auto error = [](const std::string &strain, const double radius)
+  {
+    const Scene<2> scene = scene_of({{"Geometry/Lower corner", in_digits(radius) + ", 0"},
+                                     {"Geometry/Upper corner", in_digits(radius + 1) + ", 1"},
+                                     {"Material/Plane", "axisymmetric"},
+                                     {"Material/Initial strain", strain},
+                                     given::clamped({"bottom"})});
+    const RandomMesh mesh(scene, 1, 0, 2, 2);
+    const Laboratory lab(scene, mesh);
+    return initial_stress_error(scene, lab.displacement_space, *lab.solve().spaces->loads,
+                                lab.tables);
+  };
+  const std::string jump = "if(y > 0.37 + 0.3*(x - floor(x)), 0.1, 0)";
+  const double around = error("0; 0; 0; " + jump, 1);
+  EXPECT_GT(around, 1e-4);
+  EXPECT_NEAR(error(jump + "; 0; 0; 0", 1), around, 1e-9 * around);
+  EXPECT_NEAR(std::pow(error("0; 0; 0; " + jump, 4001) / error("0; 0; 0; " + jump, 1000), 2), 4.,
+              5e-3);
 }
 
 /** Steps share what they know of loads and initial strains in a cell, which changes with its degree, and not with the mesh around it. */

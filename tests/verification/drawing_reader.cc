@@ -15,13 +15,21 @@ TEST(DrawingReader, RunsNoScripts)
   const std::string script = "SystemCall \"touch " + folder("marker") + "\";\n" + ring;
   for (const std::string start :
        {"", "ISO-10303-21;\n", "DBRep_DrawableShape\n", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n",
-        "    -1\n  2411\n", "# vtk DataFile Version 2.0\n", "$\nBEGIN BULK\nGRID\n", "*NODE\n"})
+        "\xEF\xBB\xBF$MeshFormat\n4.1 0 8\n$EndMeshFormat\n",
+        "\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n",
+        "$Comments\n$EndComments\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n", "    -1\n  2411\n",
+        "# vtk DataFile Version 2.0\n", "$\nBEGIN BULK\nGRID\n", "*NODE\n"})
     for (const std::string ending : {".step", ".msh", ".unv", ".vtk", ".inp", ""})
     {
       const std::string file = folder.write("drawing" + ending, start + script);
       EXPECT_NE(failure_of<InputError>([&]() { read_mesh_file(file); }), "") << start << ending;
       EXPECT_FALSE(fs::exists(folder("marker"))) << start << ending;
     }
+  // Gmsh goes by the first line.
+  const std::string late = folder.write(
+      "late.msh", script + "$Comments\n$EndComments\n$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+  EXPECT_NE(failure_of<InputError>([&]() { read_mesh_file(late); }), "");
+  EXPECT_FALSE(fs::exists(folder("marker")));
   read_mesh_file(folder.write("drawing.geo", script)); // is a script
   EXPECT_TRUE(fs::exists(folder("marker")));
 }

@@ -29,6 +29,7 @@ TEST(Drawings, AreReadInEveryFormat)
               saved({"old-bytes.msh"}) + "Mesh.MshFileVersion = 4.1;\n" + saved({"bytes.msh"}));
   folder.draw(ring + groups + "Mesh 2; SetOrder 3; Mesh.Binary = 1;\n" + saved({"cubic.msh"}));
   folder.draw(ring + groups + "Mesh 2; SetOrder 2;\n" + saved({"quadratic.msh"}));
+  folder.draw(ring + groups + "Mesh 2; SetOrder 9;\n" + saved({"ninth.msh"}));
   folder.draw(ring + groups + "Mesh 2;\n" + saved({"triangles.msh"}));
   folder.draw(ring + groups + mesh + "PartitionMesh 3;\n" + saved({"parts.msh"}));
   folder.write("script.geo", ring);
@@ -41,18 +42,19 @@ TEST(Drawings, AreReadInEveryFormat)
   for (const Row &row : std::vector<Row>{{"ring.step", "a STEP file, lengths in mm", 1e-13, 4},
                                          {"ring.brep", "a BREP file of OpenCASCADE", 1e-13, 4},
                                          {"script.geo", "a script of Gmsh", 1e-13, 4},
-                                         {"all.msh", "", 2e-2, 4},
+                                         {"all.msh", "a mesh file of Gmsh", 2e-2, 4},
                                          {"all.unv", "an UNV file", 2e-2, 4},
                                          {"all.vtk", "a VTK file", 2e-2, 4},
                                          {"all.bdf", "a deck of Nastran", 2e-2, 4},
-                                         {"groups.msh", "", 2e-2, 2},
+                                         {"groups.msh", "a mesh file of Gmsh", 2e-2, 2},
                                          {"groups.unv", "an UNV file", 2e-2, 2},
-                                         {"old.msh", "", 2e-2, 2},
+                                         {"old.msh", "a mesh file of Gmsh", 2e-2, 2},
                                          {"old-bytes.msh", "a mesh file of Gmsh", 2e-2, 2},
                                          {"bytes.msh", "a mesh file of Gmsh", 2e-2, 2},
                                          {"cubic.msh", "a mesh file of Gmsh", 1e-5, 2},
-                                         {"quadratic.msh", "", 1e-5, 2},
-                                         {"triangles.msh", "", 2e-2, 2},
+                                         {"quadratic.msh", "a mesh file of Gmsh", 1e-5, 2},
+                                         {"ninth.msh", "a mesh file of Gmsh", 1e-13, 2},
+                                         {"triangles.msh", "a mesh file of Gmsh", 2e-2, 2},
                                          {"parts.msh", "a mesh file of Gmsh", 2e-2, 2}})
   {
     CoarseMesh read;
@@ -156,6 +158,13 @@ TEST(Drawings, HaveNamesByNumbers)
   { return read_mesh_file(folder(file), {}, request).boundaries; };
   DrawingRequest request;
   EXPECT_EQ(names_of("bracket.step", request).size(), 8);
+  request.size = 3; // where Gmsh would take 0.8
+  request.curvature = 0;
+  EXPECT_LT(read_mesh_file(folder("bracket.step"), {}, request).cells.size(), 30U);
+  request = {};
+  // Of elements that were made here no user knows the number.
+  EXPECT_EQ(read_drawing(folder("bracket.step"), 2).elements.back().number, 0U);
+  EXPECT_GT(read_drawing(folder("bracket.vtk"), 2).elements.back().number, 0U);
   // The fillet meets its lines smoothly, and is no curve of its own where there are no curves.
   const std::vector<std::string> corners = names_of("bracket.vtk", request);
   EXPECT_EQ(corners.size(), 6U);
@@ -172,6 +181,26 @@ TEST(Drawings, HaveNamesByNumbers)
     EXPECT_TRUE(says(failure_of<InputError>([&]() { names_of(file, request); }),
                      "has no curve 99, which Boundary rim/Curves names; it has 1, 2, 3"))
         << file;
+}
+
+/** Gmsh folds cells over a coarse hole: of a drawing they are made anew, and a file is told of. */
+TEST(Drawings, ThatGmshFoldsAreMeshedAnew)
+{
+  const Folder folder;
+  const std::string script =
+      bracket + "Mesh.MeshSizeMax = 0.63; Mesh.MeshSizeFromCurvature = 12; Mesh.RecombineAll = 1;\n"
+                "Mesh.RecombinationAlgorithm = 3; Mesh.SubdivisionAlgorithm = 1;\n";
+  const std::string saving = "Mesh.SaveAll = 1;\n" + saved({"folded.msh"});
+  const double area = area_of(read_mesh_file(folder.write("exact.geo", bracket)));
+  for (const std::string &meshing :
+       std::vector<std::string>{"Mesh 2; SetOrder 3;\n", "Mesh 2;\n" + saving, ""})
+  {
+    const CoarseMesh mesh = read_mesh_file(folder.write("folded.geo", script + meshing));
+    EXPECT_EQ(mentions(mesh.remarks, "the mesh that the script makes is folded"), !meshing.empty());
+    EXPECT_NEAR(area_of_cells(mesh), area, 1e-9 * area);
+  }
+  EXPECT_TRUE(says(failure_of<InputError>([&]() { read_mesh_file(folder("folded.msh")); }),
+                   ": the mesh is folded, or surfaces overlap; mesh it with another"));
 }
 
 /** Solids become hexahedra: tetrahedra, prisms and both, of drawings and of meshes; all of the volume, and boundaries by name or number. */
@@ -197,6 +226,13 @@ TEST(Drawings, OfSolidsBecomeHexahedra)
             3, 6},
            {"text.msh", block + groups + "Mesh 3; Save \"text.msh\";\n", 3, 4, 2},
            {"bytes.msh", block + groups + "Mesh 3; Mesh.Binary = 1; Save \"bytes.msh\";\n", 3, 4,
+            2},
+           {"old.msh",
+            block + groups +
+                "Physical Surface(\"two\") = {1, 2}; Mesh 3; Mesh.MshFileVersion = 2.2;\n"
+                "Save \"old.msh\";\n",
+            3, 4, 3},
+           {"quadratic.msh", block + groups + "Mesh 3; SetOrder 2; Save \"quadratic.msh\";\n", 3, 4,
             2}})
   {
     if (row.file.find(".geo") != std::string::npos)
@@ -214,6 +250,8 @@ TEST(Drawings, OfSolidsBecomeHexahedra)
     EXPECT_TRUE(mentions(mesh.remarks, " " + std::to_string(row.times) + " times as many"))
         << row.file;
     EXPECT_EQ(mesh.boundaries.size(), row.n_boundaries) << row.file;
+    EXPECT_EQ(mentions(mesh.remarks, "of second or higher order count by their corners"),
+              row.file == "quadratic.msh");
   }
   EXPECT_TRUE(
       says(failure_of<InputError>([&]() { read_hexahedral_file(folder.write("flat.geo", base)); }),

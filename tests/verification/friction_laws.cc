@@ -5,6 +5,7 @@
 #include <hpvi/driver/load_history.h>
 
 #include <limits>
+#include <map>
 
 namespace
 {
@@ -60,6 +61,76 @@ TEST(FrictionLaw, HasItsLimitAndItsSlope)
   }
   EXPECT_FALSE(FrictionLaw<2>());
   EXPECT_EQ(FrictionLaw<2>().limit(x, 1.), 0.);
+}
+
+FrictionLaw<2> by_pressure(const std::function<double(double)> &mu)
+{
+  FrictionLaw<2> result{nullptr, expression<2>(mu(0.))};
+  result.by_pressure = std::make_shared<const std::function<double(const Point<2> &, double)>>(
+      [mu](const Point<2> &, const double p) { return mu(p); });
+  return result;
+}
+
+double falling(const double p)
+{
+  return 0.5 / (1. + p);
+}
+
+/** By itself, below a bound and above one; (mu p)' = 0.5/(1 + p)^2, from differences over 1e-4 p. */
+TEST(FrictionByPressure, HasItsLimitAndItsSlope)
+{
+  const Point<2> x;
+  FrictionLaw<2> law = by_pressure(falling);
+  EXPECT_TRUE(law.knows_pressure());
+  EXPECT_FALSE(law.is_proportional());
+  EXPECT_FALSE(law.problem({x}));
+  for (const double p : {1e-12, 1e-3, 1., 1e3})
+  {
+    EXPECT_NEAR(law.limit(x, p), falling(p) * p, 1e-15 * p);
+    EXPECT_NEAR(law.slope(x, p), 0.5 / std::pow(1. + p, 2), 1e-8);
+    const FrictionLimit::Piece tangent = law.at(x).piece(p);
+    EXPECT_NEAR(tangent.at_zero + tangent.slope * p, law.limit(x, p), 1e-15);
+  }
+  EXPECT_EQ(law.limit(x, 0.), 0.);
+  EXPECT_EQ(law.limit(x, -1.), 0.);
+  EXPECT_EQ(law.slope(x, -1.), 0.);
+  EXPECT_EQ(law.at(x).continued(-1.), -0.5);
+  EXPECT_FALSE(law.everywhere().by_pressure);
+  law.bound = expression<2>(0.3);
+  law.form = FrictionForm::limited;
+  EXPECT_EQ(law.limit(x, 1.), 0.25);
+  EXPECT_EQ(law.limit(x, 9.), 0.3);
+  EXPECT_EQ(law.slope(x, 9.), 0.);
+  law.form = FrictionForm::cohesive;
+  EXPECT_EQ(law.limit(x, 1.), 0.55);
+  EXPECT_EQ(law.limit(x, -1.), 0.3);
+}
+
+/** What falls or bends upwards is told from what grows and is concave, up to the pressure that is asked. */
+TEST(FrictionByPressure, IsRefusedWhereItFallsOrBendsUpwards)
+{
+  struct Case
+  {
+    std::function<double(double)> mu;
+    double largest;
+    std::string words; ///< none: sound
+  };
+  const auto linear = [](const double p) { return 0.5 - 0.001 * p; };
+  const auto step = [](const double to)
+  { return [to](const double p) { return p < 3 ? 0.3 : to; }; };
+  for (const Case &one : {Case{falling, 1e6, ""}, Case{linear, 250, ""},
+                          Case{linear, 270, "lets friction mu_f p fall from"},
+                          Case{[](const double p) { return 0.3 / std::max(p, 0.1); }, 1e4, ""},
+                          Case{[](const double p) { return std::pow(p + 1e-9, -1. / 3); }, 50, ""},
+                          Case{[](const double p) { return 0.1 + 1e-6 * p; }, 10, "bend upwards"},
+                          Case{step(0.1), 2.9, ""}, Case{step(0.1), 4, "fall from 0.8625 to 0.3"},
+                          Case{step(0.29), 100, "bend upwards from p = 3.125"}})
+  {
+    const auto problem = by_pressure(one.mu).problem(Point<2>(), one.largest);
+    EXPECT_EQ(bool(problem), !one.words.empty()) << one.largest << (problem ? problem->words : "");
+    const std::string words = problem ? problem->words : "";
+    EXPECT_NE(words.find(one.words), std::string::npos) << words;
+  }
 }
 
 /** Functions without the law, and the law without them. */
@@ -138,6 +209,9 @@ INSTANTIATE_TEST_SUITE_P(
                    halves([](const auto &x) { return 0.3 / (1 + x[0]); },
                           [](const auto &) { return 0.2; }),
                    FrictionForm::limited},
+                  0.3},
+            // 0.3 under every pressure
+            Patch{"by_pressure", by_pressure([](const double p) { return 0.3 / std::max(p, 0.5); }),
                   0.3},
             // 0.1 + (0.2/p) p, then 0.3 alone
             Patch{"cohesive",
@@ -245,6 +319,67 @@ TEST(FrictionLaws, HoldAtTheirPointsInEveryRegime)
   }
 }
 
+/** mu_f = 0.5/(1 + p): against Coulomb's law with the coefficients that the pressures of the problem before give. */
+TEST(FrictionByPressure, IsWhereTheIterationOverItsCoefficientsEnds)
+{
+  const auto pushed_softly = [](const FrictionLaw<2> &friction)
+  {
+    Scene<2> scene = pushed_block(friction);
+    scene.materials[0].young = 100; // pressures around 0.5, where 0.5/(1 + p) bends
+    scene.adaptivity.maximum_steps = 1;
+    return scene;
+  };
+  const Scene<2> scene = pushed_softly(by_pressure(falling));
+  const auto state = [](const Scene<2> &of, unsigned int &slips)
+  {
+    std::map<double, double> pressures; // by place
+    Vector<double> z;
+    AdaptiveSolver<2>(of).run(
+        [&](const StepReport<2> &step)
+        {
+          expect_coulomb(step.solution());
+          z = step.solution().z;
+          slips = 0;
+          for (const ContactPoint<2> &point : step.contact.at(0).points)
+          {
+            pressures[point.x[0]] = std::max(0., -point.normal_traction);
+            slips += point.mode() == ContactMode::slip;
+          }
+        });
+    return std::pair{z, pressures};
+  };
+  unsigned int slips = 0;
+  const auto [z, pressures] = state(scene, slips);
+  EXPECT_GT(slips, 2U);
+  EXPECT_LT(slips, pressures.size() - 2);
+  Scene<2> frozen = pushed_softly({nullptr, expression<2>(0.5)});
+  Vector<double> last;
+  double change = 1;
+  for (unsigned int k = 0; k < 40 && change > 1e-13; ++k)
+  {
+    const auto [next, known] = state(frozen, slips);
+    if (last.size() > 0)
+    {
+      last -= next;
+      change = last.linfty_norm() / next.linfty_norm();
+    }
+    last = next;
+    frozen.boundary("bottom").friction.coefficient = expression<2>( // straight between the points
+        [known = known](const Point<2> &x)
+        {
+          const auto right = known.lower_bound(x[0]);
+          if (right == known.begin() || right == known.end())
+            return falling(right == known.begin() ? right->second : known.rbegin()->second);
+          const auto left = std::prev(right);
+          const double s = (x[0] - left->first) / (right->first - left->first);
+          return (1 - s) * falling(left->second) + s * falling(right->second);
+        });
+  }
+  EXPECT_LE(change, 1e-13);
+  last -= z;
+  EXPECT_LE(last.linfty_norm(), 1e-9 * z.linfty_norm());
+}
+
 /** Where one part of a law says nothing, the other is Coulomb's or Tresca's. */
 TEST(FrictionLaws, HaveTheLimitsThatTheyShould)
 {
@@ -272,9 +407,11 @@ TEST(FrictionLaws, HaveTheLimitsThatTheyShould)
 
 TEST(FrictionLaws, HaveOneSolutionByBothSolvers)
 {
-  for (const FrictionForm form : {FrictionForm::limited, FrictionForm::cohesive})
+  for (const FrictionLaw<2> &friction :
+       {law(0.5, 0.3, FrictionForm::limited), law(0.5, 0.3, FrictionForm::cohesive),
+        by_pressure(falling)})
   {
-    Scene<2> scene = pushed_block(law(0.5, 0.3, form));
+    Scene<2> scene = pushed_block(friction);
     const Vector<double> newton = last_multiplier(scene);
     scene.solver.coulomb_method = CoulombMethod::fixed_point;
     const Vector<double> fixed_point = last_multiplier(scene);

@@ -242,6 +242,10 @@ TEST(Intervals, FallAlongFriction)
   ASSERT_EQ(friction.falls().size(), 1u);
   EXPECT_NEAR(friction.falls()[0].from.norm(), 0., 1e-14);
   EXPECT_NEAR(friction.falls()[0].work(scene, 0.25), 0.2 * 0.25 / 2, 1e-14);
+  scene.materials[0].plane = PlaneModel::axisymmetric; // all the way around x = 0, from there on
+  EXPECT_NEAR(friction.falls()[0].work(scene, 0.25), 0.2 * 2 * numbers::PI * 0.25 * 0.25 / 6,
+              1e-13);
+  scene.materials[0].plane = PlaneModel::strain;
   // Between the cuts of an edge, whichever way it runs, w is linear: rules see the end of the fall.
   for (const double begin : {0., 0.1, 0.25, 0.8})
     for (const double end : {0.2, 0.3, 1.})

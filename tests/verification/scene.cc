@@ -116,17 +116,13 @@ TEST(SceneByCode, HasTheDefaultsOfAFile)
   for_each_value(code, collect(ours));
   for_each_value(file, collect(theirs));
   ASSERT_GT(ours.size(), 20U);
-  // A page for readers and all cores are what who runs a file wants; code has results and threads of its own.
-  EXPECT_FALSE(code.output.report);
-  EXPECT_TRUE(file.output.report);
+  // All cores are what who runs a file wants; code has threads of its own.
   EXPECT_EQ(code.solver.threads, 1U);
   EXPECT_EQ(file.solver.threads, 0U);
   for (std::vector<std::string> *const list : {&ours, &theirs})
     list->erase(std::remove_if(list->begin(), list->end(),
-                               [](const std::string &line) {
-                                 return line.rfind("Output/Report", 0) == 0 ||
-                                        line.rfind("Solver/Threads", 0) == 0;
-                               }),
+                               [](const std::string &line)
+                               { return line.rfind("Solver/Threads", 0) == 0; }),
                 list->end());
   EXPECT_EQ(ours, theirs);
   EXPECT_EQ(code.adaptivity.method, file.adaptivity.method);
@@ -180,8 +176,7 @@ TEST(Hints, NameEntriesThatThereAre)
   {
     std::vector<std::string> paths, words;
     UserNames names;
-    if (dim == 2)
-      names.pairs = {"joint"};
+    names.pairs = {"joint"};
     names.sides = boundary_names(dim);
     for (const Entry &entry : scene_entries(dim, names))
       paths.push_back(entry.path());

@@ -6,7 +6,7 @@
 
 namespace hpvi
 {
-/** Of this library, as in 0.2.0. */
+/** Of this library, as in 0.3.0. */
 std::string version();
 
 /** Release, or Debug with all of deal.II's assertions: of the library, whatever its user builds. */

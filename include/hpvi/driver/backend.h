@@ -81,10 +81,11 @@ struct BoundOfStep
 /** u_N and the multiplier as numbers that do not depend on how many processes found them. */
 struct SolutionValues
 {
-  dealii::Vector<double> u;       ///< displacement unknowns [length]
-  dealii::Vector<double> z;       ///< multipliers
-  dealii::Vector<double> motion;  ///< amounts of Scene::free_motions() by which the body moves
-  std::vector<unsigned int> kept; ///< what the backend alone remembers of steps before
+  dealii::Vector<double> u;           ///< displacement unknowns [length]
+  dealii::Vector<double> z;           ///< multipliers
+  dealii::Vector<double> motion;      ///< amounts of Scene::free_motions() by which the body moves
+  dealii::Vector<double> shortenings; ///< of Scene::pretensions, then what their search has learnt
+  std::vector<unsigned int> kept;     ///< what the backend alone remembers of steps before
 };
 
 /**

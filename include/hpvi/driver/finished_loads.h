@@ -34,6 +34,9 @@ struct LoadCycle
   double change;
 };
 
+/** Does friction dissipate the same in the last of @p cycles as in the one before, up to @p share, or no more than that of the largest? */
+bool are_steady(const std::vector<LoadCycle> &cycles, double share);
+
 /** The largest value of something at the ends of load steps so far. */
 struct HistoryLargest
 {

@@ -7,6 +7,7 @@
 #include <hpvi/base/thread_pool.h>
 #include <hpvi/bound/resultant_intervals.h>
 #include <hpvi/driver/backend.h>
+#include <hpvi/driver/pretension_search.h>
 #include <hpvi/plane/multiplier_trace.h>
 #include <hpvi/results/legendre_smoothness.h>
 #include <hpvi/results/unseen_contact.h>
@@ -68,6 +69,7 @@ public:
   std::string bound_forces(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) override
   {
     this->begin("bounding forces");
+    bound_pretensions(bound, forces);
     return kept->resultant_intervals.set(*solution, bound, forces);
   }
   double decay_rate(const unsigned int cell) const override
@@ -105,7 +107,8 @@ public:
 
   SolutionValues values() const override
   {
-    SolutionValues result{solution->u, solution->z, motion, kept->resultant_intervals.levels()};
+    SolutionValues result{solution->u, solution->z, motion, shortenings(),
+                          kept->resultant_intervals.levels()};
     result.kept.push_back(finer_loads);
     return result;
   }
@@ -137,7 +140,9 @@ private:
     ResultantIntervals resultant_intervals;
   };
 
-  ReducedBackend(const Scene<dim> &scene, std::shared_ptr<Kept> kept);
+  /** @p own: what this step knows of @p given, where that is not all; else null. */
+  ReducedBackend(const Scene<dim> &given, std::shared_ptr<Scene<dim>> own,
+                 std::shared_ptr<Kept> kept);
   ReducedBackend(ReducedBackend &here, const Refinement &refinement); ///< ahead()
 
   void transfer_from(const ReducedBackend &last);
@@ -145,6 +150,11 @@ private:
   void assemble();
   void build();
   void factor();
+  void solve_program();
+  void tighten();
+  void bound_pretensions(const ErrorBound &bound, std::vector<Resultant<dim>> &forces) const;
+  void shorten(const std::vector<double> &shortenings);
+  dealii::Vector<double> shortenings() const;
   void keep_warm_start(const dealii::Vector<double> &z, const dealii::Vector<double> &moved);
   void take(dealii::Vector<double> u, const dealii::Vector<double> &z);
   /** Much of the bound is for one thread: another one has the forces ready that will be asked for. */
@@ -179,6 +189,9 @@ private:
   }
   bool needs_factor_again() const;
 
+  const Scene<dim> &given;                ///< before anything is tightened
+  std::shared_ptr<Scene<dim>> own_scene;  ///< with shortenings of this step; null: there are none
+  std::optional<PretensionSearch> search; ///< while they are not fixed
   std::shared_ptr<const dealii::Triangulation<dim>> mesh;
   Degrees cell_degrees;
   const std::shared_ptr<Kept> kept;

@@ -48,7 +48,10 @@ std::string no_error_bound(const Scene<dim> &scene);
 template <int dim>
 bool all_match(const ContactSpace<dim> &contact_space);
 
-/** Do meshes not match, or is contact along a curve or another direction than the normal? Then JointTractions give what contact exerts. */
+/**
+ * Do meshes not match, is contact along a curve or another direction than the normal, or does friction know a pressure that may pull? Then
+ * JointTractions give what contact exerts.
+ */
 template <int dim>
 bool has_given_tractions(const ContactSpace<dim> &contact_space);
 

@@ -26,7 +26,7 @@ struct Solution
   Solution(const Solution &solution, std::shared_ptr<const ContactSpace<dim>> other)
       : scene(solution.scene), spaces(solution.spaces), own_contact(std::move(other)),
         displacement_space(spaces->displacement_space), contact_space(*own_contact),
-        tables(*spaces->tables), u(solution.u), z(solution.z)
+        tables(*spaces->tables), u(solution.u), z(solution.z), own_scene(solution.own_scene)
   {
   }
 
@@ -38,6 +38,8 @@ struct Solution
   const ShapeTables<dim> &tables;
   dealii::Vector<double> u; ///< all displacement unknowns, constrained ones included [length]
   dealii::Vector<double> z; ///< friction traction at the Gauss points, `T_t = -z` [stress]
+  /** Of the scene and that of the spaces, where they are a step's own; null: somebody else keeps them. */
+  std::shared_ptr<const Scene<dim>> own_scene;
 
   /**
    * Coefficients of u_N on one cell in the scalar FE_Q(p_K), component by component: entry

@@ -77,10 +77,7 @@ void for_each_value(Scene &scene, const Visitor &visit)
   visit("Solver", "Condition number", solver.condition_number);
   auto &output = scene.output;
   visit("Output", "VTU", output.vtu);
-  if (in_plane)
-    visit("Output", "Mesh picture", output.mesh_picture);
   visit("Output", "Contact tables", output.contact);
-  visit("Output", "Report", output.report);
   visit("Output", "Reference solution", output.reference);
 }
 

@@ -17,10 +17,11 @@ struct UserNames
   std::vector<std::string> sides = {"left", "right", "bottom",
                                     "top"}; ///< of the body, by boundary id: each has a section
   bool is_from_file = false; ///< is the mesh one of a file, whose edges may follow curves?
-  std::vector<std::string> interfaces = {}; ///< of such a mesh, curves inside
-  std::vector<std::string> bodies = {};     ///< `Body NAME`
-  std::vector<std::string> pairs = {};      ///< `Contact NAME`
-  std::vector<std::string> probes = {};     ///< `Probe NAME`
+  std::vector<std::string> interfaces = {};  ///< of such a mesh, curves inside
+  std::vector<std::string> bodies = {};      ///< `Body NAME`
+  std::vector<std::string> pairs = {};       ///< `Contact NAME`
+  std::vector<std::string> probes = {};      ///< `Probe NAME`
+  std::vector<std::string> pretensions = {}; ///< `Pretension NAME`
 };
 
 /** The bodies that @p all open; of one body none. Throws as user_names(). */

@@ -36,6 +36,11 @@ template <int dim>
 std::vector<OppositeResidual> opposite_residuals(const FieldFace<dim> &face,
                                                  const Field<dim> &field,
                                                  const Tractions<dim> &tractions);
+/** In space one of each part of a face of a master, Field::exerted(). */
+template <int dim>
+std::vector<OppositeResidual> exerted_residuals(const Field<dim> &field,
+                                                const Tractions<dim> &tractions);
+
 /** Likewise sigma n where an edge of a master reaches beyond the other body. */
 template <int dim>
 std::vector<OppositeResidual> free_residuals(const Field<dim> &field,

@@ -90,6 +90,18 @@ struct MultiplierPoint
   bool is_open; ///< unilateral contact without pressure here, or at unknowns on both sides
 };
 
+/** What contact exerts on a part of a face of a master in space, at points of the face. */
+template <int dim>
+struct ExertedTraction
+{
+  typename dealii::DoFHandler<dim>::active_cell_iterator cell; ///< of the master, of this process
+  unsigned int face_no;
+  dealii::Tensor<1, dim> normal; ///< of the slave opposite, into the master
+  std::vector<dealii::Point<dim>> references;
+  std::vector<double> weights;                   ///< times ds
+  std::vector<dealii::Tensor<1, dim>> tractions; ///< on the master [stress]
+};
+
 /** A pressure by itself. */
 template <int dim>
 struct PressureValue
@@ -171,6 +183,13 @@ public:
   virtual dealii::Tensor<1, dim> opposite(const FieldFace<dim> &face,
                                           const dealii::Point<dim> &reference) const;
 
+  /** The materials of segments(), in space of what lies opposite on any process. */
+  virtual std::vector<dealii::types::material_id>
+  materials_opposite(const FieldFace<dim> &face) const;
+
+  /** In space what contact exerts on masters of this process; none in the plane, which has segments(). */
+  virtual const std::vector<ExertedTraction<dim>> &exerted() const;
+
   /** In the plane the places in [0,1] where integrals that hold g are cut, its ends included; none: no friction. */
   virtual std::vector<double> friction_cuts(const FieldFace<dim> &face) const = 0;
 
@@ -201,6 +220,7 @@ protected:
 
 private:
   std::vector<FieldFace<dim>> contact_faces;
+  std::vector<ExertedTraction<dim>> nothing_exerted;
 };
 
 } // namespace hpvi

@@ -8,7 +8,7 @@
 
 namespace hpvi
 {
-/** In which a number of the exact solution is guaranteed to lie: `|number - centre| <= half_width`. */
+/** In which a number of the exact solution lies, guaranteed or bounded as BoundKind of its step says: `|number - centre| <= half_width`. */
 struct Interval
 {
   double centre = 0, half_width = 0;

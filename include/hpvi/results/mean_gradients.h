@@ -18,7 +18,10 @@ struct MeanGradient
   double rotation() const;       ///< |curl u| / 2 [radians]
 };
 
-/** Of every coarse cell, by `int_K grad u = int_dK u n'` over the finest cells that it is made of. Collective. */
+/**
+ * Of every coarse cell, by `int_K grad u = int_dK u n'` over the finest cells that it is made of, without the jump that tightens a
+ * bolt. Collective.
+ */
 template <int dim>
 std::vector<MeanGradient<dim>> mean_gradients(const Field<dim> &field);
 } // namespace hpvi

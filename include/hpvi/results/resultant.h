@@ -17,9 +17,10 @@ namespace hpvi
 /** What exerts a force on the body. */
 enum class ForceKind
 {
-  support, ///< prescribed displacements, symmetry, springs, plates
-  contact, ///< with a foundation or another body, and supports of the same boundary
-  load     ///< tractions, or the body force
+  support,   ///< prescribed displacements, symmetry, springs, plates
+  contact,   ///< with a foundation or another body, and supports of the same boundary
+  load,      ///< tractions, or the body force
+  pretension ///< none: what both parts of a bolt exert on each other
 };
 
 /** The force that one boundary, part of a side or side of a pair exerts on the body in one way: a row of forces.csv. */
@@ -35,7 +36,7 @@ struct Resultant
   std::array<Measured, dim> force{};        ///< [stress length^(dim-1)]; radial: NaN
   std::array<Measured, n_moments>
       moment{};           ///< about Equilibrium::centre [stress length^dim]; about an axis: NaN
-  Measured normal = {};   ///< of contact: int T_n [stress length^(dim-1)]
+  Measured normal = {};   ///< of contact: int T_n [stress length^(dim-1)]; of a cut its tension
   Measured friction = {}; ///< of contact: int T_t, in space the length of that vector; likewise
 };
 

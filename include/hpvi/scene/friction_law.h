@@ -5,6 +5,8 @@
 #include <hpvi/scene/expression.h>
 #include <hpvi/scene/friction_limit.h>
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +21,11 @@ enum class FrictionForm
   cohesive ///< |T_t| <= g + mu_f max(0, p), where unilateral contact is open also
 };
 
+/** mu_f(x, p) of pressures p >= 0; null: mu_f(x) for all of them. */
+template <int dim>
+using CoefficientByPressure =
+    std::shared_ptr<const std::function<double(const dealii::Point<dim> &, double)>>;
+
 /** The entries by which messages name a law, in the order in which they are asked about. */
 extern const std::vector<std::string> friction_entries;
 
@@ -30,13 +37,17 @@ template <int dim>
 struct FrictionLaw
 {
   Expression<dim> bound;       ///< g(x) >= 0 [stress]; null: none
-  Expression<dim> coefficient; ///< mu_f(x) >= 0; null: none
+  Expression<dim> coefficient; ///< mu_f(x) >= 0, of #by_pressure mu_f(x, 0); null: none
   FrictionForm form = FrictionForm::automatic;
+  CoefficientByPressure<dim> by_pressure = nullptr; ///< mu_f(x, p) p grows with p and is concave
 
   explicit operator bool() const; ///< is there any friction, if only on a part?
 
   /** Does the limit follow the pressure? Then no energy is minimised, and each friction needs a pressure beside it. */
   bool knows_pressure() const;
+
+  /** Is the limit a constant and a multiple of the pressure? */
+  bool is_proportional() const;
 
   FrictionLimit at(const dealii::Point<dim> &x) const;
   double limit(const dealii::Point<dim> &x, double p) const; ///< [stress]
@@ -61,6 +72,9 @@ struct FrictionLaw
     std::string entry, words;
   };
   std::optional<Problem> problem(const std::vector<dealii::Point<dim>> &points) const;
+
+  /** The same of #by_pressure at @p x for pressures up to @p largest [stress], see FrictionLimit::flaw(). */
+  std::optional<Problem> problem(const dealii::Point<dim> &x, double largest) const;
 };
 } // namespace hpvi
 

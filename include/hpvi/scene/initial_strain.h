@@ -6,6 +6,7 @@
 #include <hpvi/scene/expression.h>
 
 #include <array>
+#include <optional>
 
 namespace hpvi
 {
@@ -19,6 +20,9 @@ struct InitialStrain
   std::array<Expression<dim>, 4> components; ///< as PlaneStrain has them; null: zero
   double expansion = 0;                      ///< alpha [1/temperature], in all directions
   Expression<dim> temperature;               ///< difference to the state without stress; null: zero
+
+  std::optional<PlaneStrain>
+      shortening; ///< what a Pretension adds to these; nothing: there is none
 
   explicit operator bool() const;
 

@@ -11,6 +11,7 @@
 #include <hpvi/scene/geometry.h>
 #include <hpvi/scene/initial_strain.h>
 #include <hpvi/scene/material.h>
+#include <hpvi/scene/pretension.h>
 #include <hpvi/scene/probe.h>
 #include <hpvi/scene/rigid_plate.h>
 
@@ -168,9 +169,7 @@ struct OutputSettings
 {
   OutputSteps steps = OutputSteps::all;
   bool vtu = true;
-  bool mesh_picture = true;
   bool contact = true;
-  bool report = false;    ///< report.html at the end
   bool reference = false; ///< reference.dat after the last step
 };
 
@@ -234,6 +233,7 @@ struct Scene
   std::vector<std::optional<dealii::types::material_id>> material_of_surface;
   std::vector<BoundaryCondition<dim>> boundaries; ///< indexed by boundary_id
   std::vector<ContactPair> pairs;                 ///< of bodies that touch
+  std::vector<Pretension<dim>> pretensions;       ///< bolts that are tightened
   std::vector<Probe<dim>> probes;                 ///< what results tell of single places
   Load<dim> body_force;                           ///< components of F [stress/length]; null: zero
   /** In its place, by material id, where materials differ in what they weigh. */

@@ -26,7 +26,8 @@ void check_axis(const Scene<dim> &scene)
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
-    if (!lies_on_axis(sides[boundary.id]))
+    // Edges of a mesh in no group are free, on the axis as well: there u_x = 0 by itself, for all else has infinite energy.
+    if (boundary.name.empty() || !lies_on_axis(sides[boundary.id]))
       continue;
     if (!boundary.symmetry || boundary.has_displacement() || boundary.has_contact() ||
         boundary.has_traction() || boundary.spring || boundary.plate)

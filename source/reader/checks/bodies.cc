@@ -12,7 +12,7 @@ void check_bodies(const Scene<dim> &scene)
   if (scene.geometry.bodies.empty())
     return;
   const std::string bodies = "of several bodies is not offered; ";
-  if (scene.solver.path == SolutionPath::primal)
+  if (dim == 2 && scene.solver.path == SolutionPath::primal)
     reject(scene, "Solver", "Path", "in a scene " + bodies + "set auto or reduced", "primal");
   if (scene.solver.normal_contact == NormalContact::nodes)
     reject(scene, "Solver", "Normal contact",

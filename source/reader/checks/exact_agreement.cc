@@ -176,6 +176,9 @@ void check_exact_solution(const Scene<2> &scene)
     reject(scene, "Body force", "Expression",
            "contradicts " + mention(scene, "Exact solution", "Solution") +
                ", which has none; remove it or set Solution = none");
+  if (!scene.pretensions.empty())
+    reject(scene, "Exact solution", "Solution",
+           "knows no Pretension; remove it, or measure errors by Error/Reference solution");
   if (scene.has_initial_strain())
     reject(scene, "Exact solution", "Solution",
            "knows no initial strain; remove it, or measure errors by Error/Reference solution");

@@ -5,6 +5,7 @@
 #include <hpvi/reader/checks/rejection.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/data_scale.h>
 
 #include <algorithm>
 #include <array>
@@ -81,6 +82,18 @@ std::string law_entry(const BoundaryCondition<dim> &boundary)
   return boundary.pair ? "Law" : "Contact";
 }
 
+/** Under pressures as large as the loads: where they gather a solution is looked at again. */
+template <int dim>
+void check_friction_by_pressure(const Scene<dim> &scene, const std::string &section,
+                                const FrictionLaw<dim> &law, const std::vector<Point<dim>> &points)
+{
+  constexpr std::size_t enough = 16; // along the boundary
+  const double largest = data_scale(scene).stress;
+  for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / enough)
+    if (const auto problem = law.problem(points[k], largest))
+      reject(scene, section, problem->entry, problem->words);
+}
+
 template <int dim>
 void check_friction(const Scene<dim> &scene, const std::string &section,
                     const BoundaryCondition<dim> &boundary, const std::vector<Point<dim>> &points)
@@ -95,6 +108,8 @@ void check_friction(const Scene<dim> &scene, const std::string &section,
                " = unilateral");
   if (const auto problem = law.problem(points))
     reject(scene, section, problem->entry, problem->words);
+  if (law.by_pressure)
+    check_friction_by_pressure(scene, section, law, points);
   if (boundary.contact == Contact::tangential &&
       std::all_of(points.begin(), points.end(),
                   [&](const Point<dim> &x) { return law.at(x).vanishes(); }))

@@ -216,6 +216,10 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
       return Objection{section_of(boundary), "Spring",
                        "is not offered by " + why +
                            "; run the reduced path on one process, or remove it"};
+  if (!scene.pretensions.empty())
+    return Objection{"Pretension " + scene.pretensions.front().name, "Through",
+                     "is not offered by " + why +
+                         "; run the reduced path on one process, or remove it"};
   if (scene.has_initial_strain())
     return Objection{"Material", "Initial strain",
                      "or Thermal expansion is not offered by " + why +

@@ -219,7 +219,7 @@ void check_material_places(const Scene<dim> &scene)
                                               : "Geometry/Subdivisions has a grid line"));
   }
   for (unsigned int m = 1; m < is_used.size(); ++m)
-    if (!is_used[m])
+    if (!is_used[m] && material_beside(scene, m) == m)
       reject(scene, section_of_material(scene.materials[m].name), "Where",
              "is positive at the centre of no cell; give the material a place or remove it");
 }

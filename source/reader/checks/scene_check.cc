@@ -49,6 +49,7 @@ void check(const Scene<dim> &scene, const SceneUse use)
   check_axisymmetry(scene);
   check_boundaries(scene);
   check_supports(scene);
+  check_pretensions(scene);
   scene.free_motions();
   check_exact_solution(scene);
   check_reference(scene);

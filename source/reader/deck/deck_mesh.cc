@@ -24,7 +24,6 @@ GmshFile mesh_of_deck(const Deck &deck, const std::vector<std::string> &surfaces
                       const std::vector<NamedFaces> &curves)
 {
   GmshFile file;
-  file.version = "2.2";
   file.origin = "a deck of CalculiX or Abaqus";
   std::vector<unsigned int> numbers(deck.nodes.size(), 0);
   for (const Deck::Element &element : deck.elements)

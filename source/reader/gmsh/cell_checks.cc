@@ -48,11 +48,11 @@ double badness(const double degrees)
 }
 } // namespace
 
-void orient_cells(CoarseMesh &mesh, const std::vector<std::size_t> &lines,
+void orient_cells(CoarseMesh &mesh, const std::vector<std::size_t> &numbers,
                   const MeshComplaint &complain)
 {
   unsigned int n_bad = 0;
-  std::size_t line = 0;
+  std::size_t number = 0;
   Corner worst = {{}, 90};
   for (unsigned int c = 0; c < mesh.cells.size(); ++c)
   {
@@ -67,17 +67,17 @@ void orient_cells(CoarseMesh &mesh, const std::vector<std::size_t> &lines,
         if (badness(degrees) > badness(worst.degrees))
         {
           worst = {mesh.vertices[cell.vertices[k]], degrees};
-          line = lines[c];
+          number = numbers[c];
         }
       }
     n_bad += bad;
   }
   if (n_bad > 0)
-    complain.at(line, "the cell has a corner of " + to_string(worst.degrees) + " degrees at " +
-                          to_string(worst.at) +
-                          (n_bad > 1 ? ", one of " + std::to_string(n_bad) + " such cells" : "") +
-                          "; corners must be convex: mesh finer, or with another "
-                          "Mesh.RecombinationAlgorithm");
+    complain.of(number, "the cell has a corner of " + to_string(worst.degrees) + " degrees at " +
+                            to_string(worst.at) +
+                            (n_bad > 1 ? ", one of " + std::to_string(n_bad) + " such cells" : "") +
+                            "; corners must be convex: mesh finer, or with another "
+                            "Mesh.RecombinationAlgorithm");
 }
 
 namespace

@@ -27,9 +27,9 @@ std::string edge_in_words(const CoarseMesh &mesh, const std::array<unsigned int,
          to_string(mesh.vertices[vertices[1]]);
 }
 
-CellEdges::CellEdges(const CoarseMesh &mesh, const std::vector<std::size_t> &lines,
+CellEdges::CellEdges(const CoarseMesh &mesh, const std::vector<std::size_t> &numbers_in_file,
                      const MeshComplaint &complain)
-    : mesh(mesh), lines(lines), complain(complain)
+    : mesh(mesh), numbers_in_file(numbers_in_file), complain(complain)
 {
   std::vector<CellEdge> sides;
   for (unsigned int c = 0; c < mesh.cells.size(); ++c)
@@ -60,22 +60,26 @@ void CellEdges::check_pair(const CellEdge &one, const CellEdge &two) const
   const std::string where = edge_in_words(mesh, one.vertices);
   if (sorted(mesh.cells[first].vertices) == sorted(mesh.cells[second].vertices))
   {
-    const std::string &surface = mesh.surfaces[mesh.cells[first].surface],
-                      &other = mesh.surfaces[mesh.cells[second].surface];
-    complain.at(lines[second],
-                "the cell with the edge " + where + " is there already in line " +
-                    std::to_string(lines[first]) +
-                    (surface == other ? "; write the file anew with Gmsh"
-                                      : ", in surface \"" + surface + "\" and in \"" + other +
-                                            "\"; let it be in one physical surface"));
+    complain.of(numbers_in_file[second], "the cell with the edge " + where + " is there already" +
+                                             as_element(first) + "; write the file anew");
   }
   if (!one.is_on_boundary())
-    complain.at(lines[second], "three cells have the edge " + where +
-                                   "; remove the surface that overlaps others from the drawing");
+    complain.of(numbers_in_file[second],
+                "three cells have the edge " + where +
+                    "; remove the surface that overlaps others from the drawing");
   if (one.vertices == two.vertices)
-    complain.at(lines[second], "two cells lie on the same side of the edge " + where +
-                                   ", the other in line " + std::to_string(lines[first]) +
-                                   "; remove the surface that overlaps others from the drawing");
+    complain.of(numbers_in_file[second],
+                "two cells lie on the same side of the edge " + where + as_element(first) +
+                    ": the mesh is folded, or surfaces overlap; mesh it with another "
+                    "Mesh.RecombinationAlgorithm and Mesh.SubdivisionAlgorithm = 0, or remove one "
+                    "of the surfaces");
+}
+
+std::string CellEdges::as_element(const unsigned int cell) const
+{
+  return numbers_in_file[cell] == 0
+             ? ""
+             : ", the other is element " + std::to_string(numbers_in_file[cell]);
 }
 
 const std::vector<CellEdge> &CellEdges::all() const

@@ -29,9 +29,9 @@ double side_of(const HexahedralMesh &mesh, const CellFace &face, const unsigned 
 }
 } // namespace
 
-CellFaces::CellFaces(const HexahedralMesh &mesh, const std::vector<std::size_t> &lines,
+CellFaces::CellFaces(const HexahedralMesh &mesh, const std::vector<std::size_t> &numbers_in_file,
                      const MeshComplaint &complain)
-    : mesh(mesh), lines(lines), complain(complain)
+    : mesh(mesh), numbers_in_file(numbers_in_file), complain(complain)
 {
   for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
     for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
@@ -52,13 +52,17 @@ CellFaces::CellFaces(const HexahedralMesh &mesh, const std::vector<std::size_t> 
       CellFace &other = faces[known->second];
       const std::string place = "the face at " + to_string(mesh.corners[face.corners[0]]);
       if (!other.is_on_boundary())
-        complain.at(lines[c], place + " belongs to three cells; two bodies that touch there have "
-                                      "one mesh in common, or a cell is there twice");
+        complain.of(numbers_in_file[c],
+                    place + " belongs to three cells; two bodies that touch there have "
+                            "one mesh in common, or a cell is there twice");
       other.cells[1] = c;
       if (side_of(mesh, other, c) < 0)
-        complain.at(lines[c], "the cell lies on the same side of " + place + " as that of line " +
-                                  std::to_string(lines[other.cells[0]]) +
-                                  ", and cells may not overlap; mesh anew");
+        complain.of(numbers_in_file[c],
+                    "the cell lies on the same side of " + place + " as " +
+                        (numbers_in_file[other.cells[0]] == 0
+                             ? "another"
+                             : "element " + std::to_string(numbers_in_file[other.cells[0]])) +
+                        ", and cells may not overlap; mesh anew");
     }
 }
 
@@ -124,7 +128,7 @@ void CellFaces::check_hanging() const
          v != order.end() && x(*v) <= x(*high) + hair; ++v)
       if (std::find(face.corners.begin(), face.corners.end(), *v) == face.corners.end() &&
           distance(piece, mesh.corners[*v]) <= hair)
-        complain.at(lines[face.cells[0]],
+        complain.of(numbers_in_file[face.cells[0]],
                     "a face of the cell has the node of another cell at " +
                         to_string(mesh.corners[*v]) +
                         " on it, a hanging node; let cells meet in whole faces, as by transfinite "

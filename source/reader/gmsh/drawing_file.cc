@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/child_process.h>
-#include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/memo_table.h>
@@ -21,6 +20,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <sstream>
 #include <tuple>
@@ -77,6 +77,8 @@ public:
         read_edge();
       else if (word == "curve")
         read_curve();
+      else if (word == "remark")
+        read_remark();
     return std::move(file);
   }
 
@@ -124,6 +126,7 @@ private:
     element.type = next<std::int64_t>();
     element.entity = next<std::int64_t>();
     element.group = next<std::int64_t>();
+    element.number = next<std::size_t>();
     const ElementKind kind = element_kind(element.type);
     std::string rest;
     std::getline(in, rest);
@@ -132,6 +135,13 @@ private:
     for (unsigned int k = 0; k < kind.n_corners && tags >> tag; ++k)
       element.nodes[k] = indices.at(tag);
     file.elements.push_back(element);
+  }
+
+  void read_remark()
+  {
+    std::string remark;
+    std::getline(in >> std::ws, remark);
+    file.remarks.push_back(remark);
   }
 
   /** Of an element of higher order. */
@@ -143,7 +153,6 @@ private:
     {
       const double x = real(), y = real();
       points.emplace_back(x, y);
-      real(); // z
     }
     if (!is_in_plane)
       return;
@@ -236,37 +245,24 @@ double wanted_unit(const DrawingKind &kind, const DrawingRequest &request,
   if (unit == 0)
     complain("Length unit = " + printable(request.unit) + " is unknown; give " + length_units);
   if (kind.unit == 0)
-    complain("is " + (kind.words.empty() ? std::string("a mesh file of Gmsh") : kind.words) +
+    complain("is " + kind.words +
              ", which has no unit of its own that Length unit could turn into another; remove "
              "Length unit");
   return unit;
 }
 
-/** Text of Gmsh, which our own reader reads; what it does not know it complains about. */
-bool is_for_own_reader(const std::string &path, const DrawingKind &kind)
+/** Whatever is no drawing and no mesh. */
+[[noreturn]] void refuse_unknown(const std::string &path, const MeshComplaint &complain)
 {
-  if (kind.name.empty())
-    return true;
-  if (kind.name != "msh")
-    return false;
-  const std::string content = content_of(path);
-  std::istringstream in(content);
-  std::string word, version, is_binary;
-  in >> word >> version >> is_binary;
-  const bool is_old = word == "$NOD" || version == "1" || version == "2.1" || version == "3",
-             has_bytes = is_binary == "1" && content.find('\0') != std::string::npos;
-  return !is_old && !has_bytes && content.find("$PartitionedEntities") == std::string::npos;
-}
-
-/** Elements of the plane that our own reader leaves out. */
-bool has_higher_order(const GmshFile &file)
-{
-  return std::any_of(file.elements.begin(), file.elements.end(),
-                     [](const GmshFile::Element &element)
-                     {
-                       const ElementKind kind = element_kind(element.type);
-                       return kind.n_nodes == 0 && kind.dim < 3;
-                     });
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    complain("is a directory; name a drawing or a mesh");
+  if (!std::filesystem::is_regular_file(path, error) || !std::ifstream(path))
+    complain("cannot be read; check the name and the permissions of the file");
+  if (std::filesystem::file_size(path, error) == 0)
+    complain("is empty; write it anew");
+  complain("is no drawing (.step, .iges, .brep, .geo) and no mesh (.msh, .unv, .bdf, .vtk, .inp), "
+           "as it does not begin like one; name such a file");
 }
 
 std::string number(const double x)
@@ -300,11 +296,7 @@ GmshFile from_helper(const std::string &path, const unsigned int dim, const Draw
                                        { return element_kind(element.type).dim == 1; }),
                         file.elements.end());
   file.is_drawing = !kind.has_cells();
-  file.origin = kind.words;
-  if (kind.unit > 0)
-    file.origin += ", lengths in " + (request.unit.empty()
-                                          ? kind.unit_name
-                                          : request.unit + " from the file's " + kind.unit_name);
+  file.origin = kind.origin(request.unit);
   return file;
 }
 
@@ -330,6 +322,8 @@ GmshFile read_drawing(const std::string &path, const unsigned int dim,
     return *given;
   const DrawingKind kind = kind_of_drawing(path);
   const MeshComplaint complain(path);
+  if (kind.name.empty())
+    refuse_unknown(path, complain);
   if (kind.has_cells() && request.size > 0)
     complain("is a mesh, of which Mesh size changes nothing; remove it");
   if (kind.name == "inp")
@@ -339,21 +333,6 @@ GmshFile read_drawing(const std::string &path, const unsigned int dim,
       complain("is a deck, of which meshes in the plane are read; save a mesh of Gmsh (.msh), as "
                "with gmsh -0 -format msh41");
     return read_deck_mesh(path);
-  }
-  if (is_for_own_reader(path, kind))
-  {
-    wanted_unit(kind, request, complain);
-    GmshFile own = read_gmsh_file(path);
-    if (dim == 3 || !has_higher_order(own))
-      return own;
-    try
-    {
-      return from_helper(path, dim, request, kind, limits);
-    }
-    catch (const InputError &)
-    {
-      return own; // whose line is told
-    }
   }
   static std::map<Key, GmshFile> known;
   const Key key(std::filesystem::absolute(path).string(), std::filesystem::last_write_time(path),

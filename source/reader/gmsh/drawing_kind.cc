@@ -135,6 +135,16 @@ std::string DrawingKind::occ_unit() const
   return name;
 }
 
+std::string DrawingKind::origin(const std::string &wanted_unit) const
+{
+  if (unit == 0)
+    return words;
+  return words + ", lengths in " +
+         (wanted_unit.empty() || wanted_unit == unit_name
+              ? unit_name
+              : wanted_unit + " from the file's " + unit_name);
+}
+
 bool DrawingKind::is_cad() const
 {
   return name == "step" || name == "iges" || name == "brep";
@@ -172,7 +182,9 @@ DrawingKind kind_of_drawing(const std::string &path)
     return {"brep", "a BREP file of OpenCASCADE"};
   if (begins(text, "# vtk DataFile"))
     return {"vtk", "a VTK file"};
-  if (begins(text, "$MeshFormat") || begins(text, "$NOD"))
+  // Of other beginnings, a byte order mark among them, Gmsh takes a mesh for a script.
+  if (begins(text, "$MeshFormat") || begins(text, "$NOD") ||
+      (begins(text, "$Comments") && text.find("\n$MeshFormat") != std::string::npos))
     return {"msh", "a mesh file of Gmsh"};
   if (is_unv(text))
     return {"unv", "an UNV file"};

@@ -25,13 +25,10 @@ namespace
   const std::string n = std::to_string(std::count_if(elements.begin(), elements.end(), is_same));
   const std::string name =
       kind.name == nullptr ? "elements of type " + std::to_string(first.type) : kind.name;
-  const std::string remedy =
-      kind.dim == 3
-          ? "a body in the plane has none: set Dimension = 3, or save a plane one"
-          : "a file of text has triangles and quadrilaterals of first or second order: mesh with "
-            "-order 2 or -order 1, or save it with -bin";
-  complain.at(first.line,
-              "the mesh has " + name + " (" + n + "), the first in this line; " + remedy);
+  complain.of(first.number,
+              "the mesh has " + name + " (" + n + "); a body in the plane has " +
+                  (kind.dim == 3 ? "none: set Dimension = 3, or save a plane one"
+                                 : "triangles and quadrilaterals: mesh it with these"));
 }
 
 [[noreturn]] void refuse_groupless(const GmshFile &file, const GmshFile::Element &first,
@@ -42,16 +39,11 @@ namespace
   for (unsigned int k = 0; k < 4; ++k)
     for (unsigned int d = 0; d < 2; ++d)
       centre[d] += file.nodes[first.nodes[k]].at[d] / 4;
-  const bool names_surfaces = std::any_of(file.names.begin(), file.names.end(),
-                                          [](const auto &name) { return name.first.first == 2; });
-  const bool saved_all = file.version[0] == '2' && n == n_cells && names_surfaces;
-  complain.at(first.line, std::to_string(n) + " of " + std::to_string(n_cells) +
-                              " cells are in no physical surface, the first about " +
-                              to_string(centre) + "; " +
-                              (saved_all ? "in format 2.2 Mesh.SaveAll loses the groups: save with "
-                                           "Mesh.SaveAll = 0, or -format msh41"
-                                         : "give each surface one in the drawing, as in Physical "
-                                           "Surface(\"plate\") = {1};"));
+  complain.of(first.number, std::to_string(n) + " of " + std::to_string(n_cells) +
+                                " cells are in no physical surface, the first about " +
+                                to_string(centre) +
+                                "; give each surface one in the drawing, as in Physical "
+                                "Surface(\"plate\") = {1};");
 }
 } // namespace
 

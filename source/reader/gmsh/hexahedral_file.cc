@@ -36,19 +36,13 @@ void check_hexahedra(const GmshFile &file, const MeshComplaint &complain)
   const ElementKind kind = element_kind(found->type);
   const std::string name =
       kind.name == nullptr ? "elements of type " + std::to_string(found->type) : kind.name;
-  const bool is_of_higher_order =
-      kind.name != nullptr && (kind.n_corners == 8 || kind.n_corners == 4) && name != "tetrahedra";
-  complain.at(
-      found->line,
-      "the mesh has " + name + (is_of_higher_order ? " of second or higher order" : "") + " (" +
-          std::to_string(std::count_if(file.elements.begin(), file.elements.end(),
-                                       [&](const GmshFile::Element &element)
-                                       { return element.type == found->type; })) +
-          "), the first in this line; " +
-          (is_of_higher_order
-               ? "a body in space has hexahedra of first order: mesh with -order 1"
-               : "a body in space has hexahedra, tetrahedra and prisms: make transfinite volumes, "
-                 "or extrude a surface with Recombine and Layers"));
+  complain.of(found->number,
+              "the mesh has " + name + " (" +
+                  std::to_string(std::count_if(file.elements.begin(), file.elements.end(),
+                                               [&](const GmshFile::Element &element)
+                                               { return element.type == found->type; })) +
+                  "); a body in space has hexahedra, tetrahedra and prisms: make transfinite "
+                  "volumes, or extrude a surface with Recombine and Layers");
 }
 
 class HexahedraMaker
@@ -65,7 +59,7 @@ public:
     check_places();
     orient_cells();
     check_planes();
-    const CellFaces faces(mesh, lines, complain);
+    const CellFaces faces(mesh, numbers_of_cells, complain);
     faces.check_connection();
     take_faces(faces);
     order_corners();
@@ -80,7 +74,7 @@ private:
       if (element.type == hexahedron)
       {
         if (element.group == 0)
-          complain.at(element.line,
+          complain.of(element.number,
                       "the cell is in no physical volume; give each volume one in the drawing, as "
                       "in Physical Volume(\"block\") = {1};");
         tags.push_back(element.group);
@@ -101,11 +95,11 @@ private:
           corners[place[v]] = take_node(element.nodes[v]);
         for (const unsigned int v : corners)
           if (std::count(corners.begin(), corners.end(), v) > 1)
-            complain.damaged(element.line,
-                             "the cell has the node at " + to_string(mesh.corners[v]) + " twice");
+            complain.of(element.number, "the cell has the node at " + to_string(mesh.corners[v]) +
+                                            " twice; write the file anew");
         mesh.cells.emplace_back();
         mesh.cells.back().surface = numbers.number(element.group);
-        lines.push_back(element.line);
+        numbers_of_cells.push_back(element.number);
       }
   }
 
@@ -190,7 +184,7 @@ private:
         least = -most;
       }
       if (!(least > 1e-3))
-        complain.at(lines[c],
+        complain.of(numbers_of_cells[c],
                     "the cell about " + to_string(centre_of(mesh.corners_of(c))) +
                         " is folded or flat at a corner, where its edges span a volume of " +
                         to_string(least) +
@@ -209,7 +203,7 @@ private:
         const double size = face[0].distance(face[3]),
                      off = std::abs((face[1] - face[0]) * normal_of(face)) / size;
         if (!(off <= 1e-8))
-          complain.at(lines[c],
+          complain.of(numbers_of_cells[c],
                       "the face at " + to_string(face[0]) + " of the cell is not plane, by " +
                           to_string(off) +
                           " of its size; curved faces are not offered in space, give cells "
@@ -230,15 +224,10 @@ private:
         corners[k] = corner_of[element.nodes[k]];
       const unsigned int face = faces.find(corners);
       if (face == CoarseMesh::inside)
-        complain.at(element.line, "the physical " + file.words({2, element.group}) +
-                                      " has a face of no cell here, at " +
-                                      to_string(file.nodes[element.nodes[0]].at) +
-                                      "; let it be a surface of a volume, or remove it");
-      if (groups[face] != 0 && groups[face] != element.group)
-        complain.at(element.line,
-                    "the face at " + to_string(file.nodes[element.nodes[0]].at) +
-                        " is in two physical groups, " + file.words({2, groups[face]}) + " and " +
-                        file.words({2, element.group}) + "; take its surface out of one");
+        complain.of(element.number, "the physical " + file.words({2, element.group}) +
+                                        " has a face of no cell here, at " +
+                                        to_string(file.nodes[element.nodes[0]].at) +
+                                        "; let it be a surface of a volume, or remove it");
       groups[face] = element.group;
     }
     return groups;
@@ -292,8 +281,8 @@ private:
   const GmshFile &file;
   const MeshComplaint &complain;
   HexahedralMesh mesh;
-  std::vector<unsigned int> corner_of; ///< by node; CoarseMesh::inside: not used
-  std::vector<std::size_t> lines;      ///< by cell
+  std::vector<unsigned int> corner_of;       ///< by node; CoarseMesh::inside: not used
+  std::vector<std::size_t> numbers_of_cells; ///< in the file
 };
 } // namespace
 
@@ -301,6 +290,7 @@ HexahedralMesh read_hexahedral_file(const std::string &path, const DrawingReques
 {
   GmshFile file = read_drawing(path, 3, request);
   const MeshComplaint complain(path);
+  file.take_smallest_groups();
   number_groups(file, 3, request, complain);
   make_hexahedra(file);
   check_hexahedra(file, complain);

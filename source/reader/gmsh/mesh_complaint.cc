@@ -19,13 +19,8 @@ void MeshComplaint::at(const std::size_t line, const std::string &problem_and_re
   throw InputError(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + problem_and_remedy);
 }
 
-void MeshComplaint::damaged(const std::size_t line, const std::string &problem) const
+void MeshComplaint::of(const std::size_t element, const std::string &problem_and_remedy) const
 {
-  at(line, problem + "; the file is damaged, write it anew with Gmsh");
-}
-
-std::string MeshComplaint::rewriting() const
-{
-  return "gmsh " + file + " -0 -format msh41 -o ascii.msh";
+  (*this)((element > 0 ? "element " + std::to_string(element) + ": " : "") + problem_and_remedy);
 }
 } // namespace hpvi

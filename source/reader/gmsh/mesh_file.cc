@@ -40,8 +40,8 @@ public:
     if (mesh.cells.empty())
       return std::move(mesh);
     take_vertices();
-    orient_cells(mesh, lines, complain);
-    const CellEdges edges(mesh, lines, complain);
+    orient_cells(mesh, numbers_of_cells, complain);
+    const CellEdges edges(mesh, numbers_of_cells, complain);
     check_connection(mesh, edges, complain);
     take_middles(edges);
     take_edges(edges, edge_groups(edges));
@@ -74,14 +74,14 @@ private:
         CoarseMesh::Cell cell;
         cell.surface = numbers.number(element.group);
         for (unsigned int k = 0; k < 4; ++k)
-          cell.vertices[k] = take_node(element.nodes[k], element.line);
+          cell.vertices[k] = take_node(element.nodes[k], element.number);
         for (unsigned int k = 0; k < 4; ++k)
           if (std::count(cell.vertices.begin(), cell.vertices.end(), cell.vertices[k]) > 1)
-            complain.damaged(element.line, "the cell has the node " +
-                                               std::to_string(file.nodes[element.nodes[k]].tag) +
-                                               " twice");
+            complain.of(element.number, "the cell has the node " +
+                                            std::to_string(file.nodes[element.nodes[k]].tag) +
+                                            " twice; write the file anew");
         mesh.cells.push_back(cell);
-        lines.push_back(element.line);
+        numbers_of_cells.push_back(element.number);
       }
   }
 
@@ -104,26 +104,26 @@ private:
            left_out.count(std::minmax({line.nodes[0], line.nodes[1]})) == 0;
   }
 
-  unsigned int take_node(const unsigned int node, const std::size_t line)
+  unsigned int take_node(const unsigned int node, const std::size_t element)
   {
     if (vertex_of[node] == CoarseMesh::inside)
     {
       vertex_of[node] = nodes.size();
       nodes.push_back(node);
-      mesh.vertices.push_back(plane_point(node, line));
+      mesh.vertices.push_back(plane_point(node, element));
     }
     return vertex_of[node];
   }
 
   /** In which z is 0 to round-off: it is measured when the size is known. */
-  Point<2> plane_point(const unsigned int node, const std::size_t line)
+  Point<2> plane_point(const unsigned int node, const std::size_t element)
   {
     const Point<3> &at = file.nodes[node].at;
     if (std::abs(at[2]) > largest_z)
     {
       largest_z = std::abs(at[2]);
       highest = node;
-      highest_line = line;
+      element_of_highest = element;
     }
     return Point<2>(at[0], at[1]);
   }
@@ -140,7 +140,7 @@ private:
     if (largest_z <= 1e-12 * size)
       return;
     const Point<3> &at = file.nodes[highest].at;
-    complain.at(highest_line,
+    complain.of(element_of_highest,
                 "the node " + std::to_string(file.nodes[highest].tag) + " at " + to_string(at) +
                     " is not in the plane z = 0, in which a body lies; draw it there");
   }
@@ -162,9 +162,8 @@ private:
           continue; // a line that edge_groups() refuses, or one in no group, or what is left out
         const unsigned int middle = element.nodes[kind.n_corners + k];
         if (middles[e] != CoarseMesh::inside && middles[e] != middle)
-          complain.damaged(element.line, "the edge " +
-                                             edge_in_words(mesh, edges.all()[e].vertices) +
-                                             " has a second node in its middle");
+          complain.of(element.number, "the edge " + edge_in_words(mesh, edges.all()[e].vertices) +
+                                          " has a second node in its middle; write the file anew");
         middles[e] = middle;
       }
     }
@@ -184,10 +183,6 @@ private:
     if (std::all_of(file.elements.begin(), file.elements.end(), is_cell))
       return numbered_edges(edges);
     std::vector<std::int64_t> groups(edges.all().size(), 0);
-    std::map<std::int64_t, std::size_t> n_lines;
-    for (const GmshFile::Element &element : file.elements)
-      if (!is_cell(element))
-        ++n_lines[element.group];
     for (const GmshFile::Element &element : file.elements)
     {
       if (is_cell(element) || element.group == 0)
@@ -195,10 +190,7 @@ private:
       if (is_loose(edges, element) && !file.is_numbered)
         refuse_loose_lines(edges, element);
       const unsigned int e = edge_between(edges, element.nodes[0], element.nodes[1]);
-      if (e == CoarseMesh::inside)
-        continue;
-      // Of two groups, as in files of 2.2, the one with fewer lines has it.
-      if (groups[e] == 0 || n_lines.at(element.group) < n_lines.at(groups[e]))
+      if (e != CoarseMesh::inside)
         groups[e] = element.group;
     }
     return groups;
@@ -222,10 +214,10 @@ private:
       const Point<3> &at = file.nodes[first.nodes[k]].at;
       return to_string(Point<2>(at[0], at[1]));
     };
-    complain.at(first.line, "the physical " + file.words({1, first.group}) + " has " +
-                                std::to_string(n) + (n == 1 ? " edge" : " edges") +
-                                " of no cell, the first from " + place(0) + " to " + place(1) +
-                                "; let it be a curve of a surface, or remove it");
+    complain.of(first.number, "the physical " + file.words({1, first.group}) + " has " +
+                                  std::to_string(n) + (n == 1 ? " edge" : " edges") +
+                                  " of no cell, the first from " + place(0) + " to " + place(1) +
+                                  "; let it be a curve of a surface, or remove it");
   }
 
   void take_edges(const CellEdges &edges, const std::vector<std::int64_t> &groups)
@@ -306,13 +298,13 @@ private:
   const MeshComplaint &complain;
   CoarseMesh mesh;
   std::set<std::pair<unsigned int, unsigned int>> left_out; ///< edges of other surfaces, by nodes
-  std::vector<unsigned int> vertex_of; ///< by node; CoarseMesh::inside: not used
-  std::vector<unsigned int> nodes;     ///< by vertex
-  std::vector<std::size_t> lines;      ///< by cell
-  std::vector<unsigned int> middles;   ///< nodes by edge; CoarseMesh::inside: none
+  std::vector<unsigned int> vertex_of;       ///< by node; CoarseMesh::inside: not used
+  std::vector<unsigned int> nodes;           ///< by vertex
+  std::vector<std::size_t> numbers_of_cells; ///< in the file
+  std::vector<unsigned int> middles;         ///< nodes by edge; CoarseMesh::inside: none
   double size = 0, largest_z = 0;
   unsigned int highest = 0;
-  std::size_t highest_line = 0;
+  std::size_t element_of_highest = 0;
 };
 } // namespace
 
@@ -321,6 +313,7 @@ CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string
 {
   GmshFile file = read_drawing(path, 2, request);
   const MeshComplaint complain(path);
+  file.take_smallest_groups();
   number_groups(file, 2, request, complain);
   check_elements(file, complain);
   bend_lines(file, request);

@@ -134,7 +134,7 @@ private:
     return Point<2>(file.nodes[node].at[0], file.nodes[node].at[1]);
   }
 
-  /** Middle nodes of elements of second order as curves, as our own reader has them. */
+  /** Of elements of second order, as decks and arrays have them. */
   void take_middles()
   {
     for (const Element &element : file.elements)

@@ -28,31 +28,52 @@ using namespace dealii;
 
 namespace
 {
-/**
- * What muParser says about @p text, empty where it understands it: the same functions as in deal.II's
- * FunctionParser, which would print five lines to stderr before it throws.
- */
+/** Of the coordinates, and of the pressure of contact behind them. */
 template <int dim>
-std::string complaint(const std::string &text, const std::map<std::string, double> &constants)
+using Variables = std::array<double, dim + 1>;
+
+/** muParser for @p text, with the constants and functions of deal.II's FunctionParser. Throws mu::ParserError. */
+template <int dim>
+void initialise(mu::Parser &parser, const std::string &text,
+                const std::map<std::string, double> &constants, const bool knows_pressure,
+                Variables<dim> &variables)
 {
-  double zero = 0;
-  mu::Parser parser;
   for (const auto &[name, value] : constants)
     parser.DefineConst(name, value);
+  double *variable = variables.data();
   for (const std::string &name :
        Utilities::split_string_list(FunctionParser<dim>::default_variable_names()))
-    parser.DefineVar(name, &zero);
-  for (const char *const name : {"int", "ceil", "cot", "csc", "floor", "sec", "log", "erfc"})
-    parser.DefineFun(name, internal::FunctionParser::mu_log);
-  parser.DefineFun("pow", internal::FunctionParser::mu_pow);
-  parser.DefineFun("if", internal::FunctionParser::mu_if);
-  parser.DefineOprt("|", internal::FunctionParser::mu_or, 1);
-  parser.DefineOprt("&", internal::FunctionParser::mu_and, 2);
+    parser.DefineVar(name, variable++);
+  if (knows_pressure)
+    parser.DefineVar("p", variable);
+  using namespace internal::FunctionParser;
+  const std::vector<std::pair<const char *, double (*)(double)>> functions = {
+      {"int", mu_int},     {"ceil", mu_ceil}, {"cot", mu_cot}, {"csc", mu_csc},
+      {"floor", mu_floor}, {"sec", mu_sec},   {"log", mu_log}, {"erfc", mu_erfc}};
+  for (const auto &[name, function] : functions)
+    parser.DefineFun(name, function);
+  parser.DefineFun("pow", mu_pow);
+  parser.DefineFun("if", mu_if);
+  parser.DefineOprt("|", mu_or, 1);
+  parser.DefineOprt("&", mu_and, 2);
+  // deal.II allows a space behind the name of a function.
+  parser.SetExpr(std::regex_replace(text, std::regex("\\s+\\("), "("));
+  parser.Eval();
+}
+
+/**
+ * What muParser says about @p text, empty where it understands it: deal.II's FunctionParser would print five lines to
+ * stderr before it throws.
+ */
+template <int dim>
+std::string complaint(const std::string &text, const std::map<std::string, double> &constants,
+                      const bool knows_pressure = false)
+{
+  Variables<dim> variables{};
+  mu::Parser parser;
   try
   {
-    // deal.II allows a space behind the name of a function.
-    parser.SetExpr(std::regex_replace(text, std::regex("\\s+\\("), "("));
-    parser.Eval();
+    initialise<dim>(parser, text, constants, knows_pressure, variables);
     return {};
   }
   catch (const mu::ParserError &error)
@@ -76,6 +97,13 @@ std::string message(const std::string &place, const std::string &problem, const 
   return place + ": " + problem + " at " + to_string(x) + ": " + shown + "; " + remedy;
 }
 
+unsigned int number_of_this_thread()
+{
+  static std::atomic<unsigned int> n_threads(0);
+  thread_local const unsigned int own = n_threads++;
+  return own;
+}
+
 /** deal.II's parser has a lock for each value, which threads would hand to one another: each of them has a parser of its own here. */
 template <int dim>
 class ParserByThread : public Function<dim>
@@ -88,9 +116,8 @@ public:
 
   double value(const Point<dim> &x, const unsigned int = 0) const override
   {
-    static std::atomic<unsigned int> n_threads(0);
-    thread_local const unsigned int own = n_threads++;
-    const Parser &parser = parsers[own % parsers.size()]; // two threads may share one
+    const Parser &parser =
+        parsers[number_of_this_thread() % parsers.size()]; // two threads may share one
     std::call_once(parser.is_made,
                    [&]()
                    {
@@ -112,6 +139,50 @@ private:
   const std::map<std::string, double> constants;
   std::array<Parser, 16> parsers;
 };
+
+/** A function of a point and the pressure there, likewise; muParser's variables are one thread's at a time. */
+template <int dim>
+class PressureParser
+{
+public:
+  PressureParser(const std::string &text, const std::map<std::string, double> &constants)
+      : text(text), constants(constants)
+  {
+  }
+
+  double value(const Point<dim> &x, const double p) const
+  {
+    const Parser &parser = parsers[number_of_this_thread() % parsers.size()];
+    const std::lock_guard<std::mutex> lock(parser.mutex);
+    if (!parser.is_made)
+      initialise<dim>(parser.function, text, constants, true, parser.variables);
+    parser.is_made = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      parser.variables[d] = x[d];
+    parser.variables[dim] = p;
+    return parser.function.Eval();
+  }
+
+private:
+  struct Parser
+  {
+    mutable std::mutex mutex;
+    mutable bool is_made = false;
+    mutable Variables<dim> variables{};
+    mutable mu::Parser function;
+  };
+
+  const std::string text;
+  const std::map<std::string, double> constants;
+  std::array<Parser, 16> parsers;
+};
+
+/** Does it say the pressure? */
+bool names_pressure(const std::string &text)
+{
+  static const std::regex pressure("(^|[^A-Za-z0-9_.])p($|[^A-Za-z0-9_(])");
+  return std::regex_search(text, pressure);
+}
 
 /** @p function, which must be finite wherever it is asked. */
 template <int dim>
@@ -268,13 +339,8 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   double value;
   if (is_number(text, value))
     return std::make_shared<Functions::ConstantFunction<dim>>(value);
-  check_misreadings(section, name, text);
-  // Without spaces deal.II's operators & and | are read in their place.
-  const std::string spaced = std::regex_replace(text, std::regex("&&|\\|\\|"), " $& ");
-  const std::string problem = objection(spaced);
-  if (!problem.empty())
-    parameters.reject(section, name, "\"" + printable(text) + "\" " + problem);
-  const auto function = std::make_shared<const ParserByThread<dim>>(spaced, constants);
+  const auto function =
+      std::make_shared<const ParserByThread<dim>>(checked(section, name, text), constants);
   const Expression result =
       finite<dim>(function, parameters.place(section, name),
                   "\"" + printable(text) + "\"" + with_time(constants), constants.count("t") > 0);
@@ -284,25 +350,90 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
 }
 
 template <int dim>
-std::string ExpressionReader<dim>::objection(const std::string &text) const
+CoefficientByPressure<dim> ExpressionReader<dim>::make_coefficient(const std::string &section,
+                                                                   const std::string &name,
+                                                                   const std::string &text) const
 {
-  const std::string problem = complaint<dim>(text, constants);
+  const auto function =
+      std::make_shared<const PressureParser<dim>>(checked(section, name, text), constants);
+  const auto value = [function, place = parameters.place(section, name),
+                      shown = "\"" + printable(text) + "\"" + with_time(constants),
+                      has_time = constants.count("t") > 0](const Point<dim> &x, const double p)
+  {
+    const double result = function->value(x, p);
+    if (!std::isfinite(result))
+      throw InputError(message(place, shown + " is not finite under p = " + to_string(p), x, result,
+                               "give an expression that is finite for every pressure p >= 0, as "
+                               "with max(p, ...) where it divides by p"),
+                       has_time);
+    return result;
+  };
+  return std::make_shared<const std::function<double(const Point<dim> &, double)>>(value);
+}
+
+template <int dim>
+FrictionLaw<dim> ExpressionReader<dim>::read_friction(const std::string &section,
+                                                      const std::vector<Point<dim>> &points) const
+{
+  const std::string name = "Friction coefficient", text = parameters.text(section, name),
+                    remedy = "Coulomb's coefficient needs mu_f >= 0";
+  FrictionLaw<dim> law;
+  law.bound = read_bound(section, "Friction bound", points, "Tresca's bound needs g >= 0");
+  if (names_pressure(text))
+  {
+    law.by_pressure = make_coefficient(section, name, text);
+    law.coefficient =
+        not_negative(std::make_shared<ScalarFunctionFromFunctionObject<dim>>(
+                         [mu = law.by_pressure](const Point<dim> &x) { return (*mu)(x, 0.); }),
+                     section, name, points, remedy);
+  }
+  else
+    law.coefficient = read_bound(section, name, points, remedy);
+  return law;
+}
+
+template <int dim>
+std::string ExpressionReader<dim>::checked(const std::string &section, const std::string &name,
+                                           const std::string &text) const
+{
+  check_misreadings(section, name, text);
+  // Without spaces deal.II's operators & and | are read in their place.
+  const std::string spaced = std::regex_replace(text, std::regex("&&|\\|\\|"), " $& ");
+  const std::string problem = objection(spaced, name == friction_entries[1]);
+  if (!problem.empty())
+    parameters.reject(section, name, "\"" + printable(text) + "\" " + problem);
+  return spaced;
+}
+
+template <int dim>
+std::string ExpressionReader<dim>::objection(const std::string &text,
+                                             const bool knows_pressure) const
+{
+  const std::string problem = complaint<dim>(text, constants, knows_pressure);
   if (problem.empty())
     return {};
+  if (!knows_pressure && complaint<dim>(text, constants, true).empty())
+    return std::string("uses p, the pressure of contact, which Friction coefficient alone knows; "
+                       "write a function of ") +
+           (dim == 2 ? "x and y" : "x, y and z");
   std::map<std::string, double> with_time = constants;
   const bool has_time = !with_time.emplace("t", 0.).second;
-  if (!has_time && complaint<dim>(text, with_time).empty())
+  if (!has_time && complaint<dim>(text, with_time, knows_pressure).empty())
     return std::string("uses t, the time of a load history, and the scene has none; set "
                        "Loading/Steps or write a function of ") +
            (dim == 2 ? "x and y" : "x, y and z");
-  const std::string variables = dim == 2 ? (has_time ? "x, y and t" : "x and y")
-                                         : (has_time ? "x, y, z and t" : "x, y and z");
+  std::vector<std::string> variables = {"x", "y", "z"};
+  variables.resize(dim);
+  if (knows_pressure)
+    variables.push_back("p");
+  if (has_time)
+    variables.push_back("t");
   std::vector<std::string> names;
   for (const auto &[name, value] : constants)
     if (name != "t")
       names.push_back(name);
-  return "is not an expression of " + variables + " (" + problem + "); mend it, constants are " +
-         listed(names, "and") + remark;
+  return "is not an expression of " + listed(variables, "and") + " (" + problem +
+         "); mend it, constants are " + listed(names, "and") + remark;
 }
 
 template <int dim>
@@ -312,8 +443,15 @@ ExpressionReader<dim>::read_bound(const std::string &section, const std::string 
                                   const std::string &remedy) const
 {
   const Expression g = read<1>(section, name, "0", points)[0];
-  if (g == nullptr)
-    return nullptr;
+  return g ? not_negative(g, section, name, points, remedy) : nullptr;
+}
+
+template <int dim>
+typename ExpressionReader<dim>::Expression
+ExpressionReader<dim>::not_negative(const Expression &g, const std::string &section,
+                                    const std::string &name, const std::vector<Point<dim>> &points,
+                                    const std::string &remedy) const
+{
   double largest = 0;
   for (const Point<dim> &point : points)
     largest = std::max(largest, std::abs(g->value(point)));

@@ -240,8 +240,8 @@ std::vector<Entry> drawing_entries(const unsigned int dim)
            "the file."},
           {"Geometry", "Mesh size", "", word_or("", Patterns::Double(1e-100)),
            "a positive number or nothing",
-           "Size of the largest cells of a drawing [length]; empty: a quarter of the larger side "
-           "of its box, or what a script says."},
+           "Size of the largest cells of a drawing [length]; empty: a tenth of the diagonal of its "
+           "box, or what a script says."},
           {"Geometry", "Mesh size from curvature", "12",
            std::make_shared<Patterns::Double>(0, 1000), "a number from 0 to 1000",
            "How many cells of a drawing there are along curves at least, per full turn; 0: no "

@@ -85,8 +85,6 @@ Warnings dissipation_warnings(const double at_ends, const double trapezoidal, co
 
 Warnings steady_warnings(const double change, const double asked_for)
 {
-  if (!(change > asked_for))
-    return {};
   return {{WarningKind::unsteady, change,
            line("the energy that friction dissipates in the last cycle differs by ", 100 * change,
                 " % from that in the one before, and Loading/Until steady asks for ",

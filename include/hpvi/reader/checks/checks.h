@@ -52,6 +52,10 @@ void check_axisymmetry(const Scene<dim> &scene);
 template <int dim>
 void check_method(const Scene<dim> &scene, SceneUse use);
 
+/** Bolts are pulled, and nothing acts along the sides of the cells that are shortened. */
+template <int dim>
+void check_pretensions(const Scene<dim> &scene);
+
 /** Probes lie in the body, and their columns have names of their own. */
 template <int dim>
 void check_probes(const Scene<dim> &scene);

@@ -11,9 +11,9 @@ double degrees_between(const dealii::Tensor<1, 2> &one, const dealii::Tensor<1, 
 
 /**
  * Turn clockwise cells round. Throws InputError where one is no convex quadrilateral: corners with straight edges
- * must have more than 0.1 and less than 179.9 degrees. Messages name the line in which a cell stands.
+ * must have more than 0.1 and less than 179.9 degrees. Messages name cells by their @p numbers in the file.
  */
-void orient_cells(CoarseMesh &mesh, const std::vector<std::size_t> &lines,
+void orient_cells(CoarseMesh &mesh, const std::vector<std::size_t> &numbers,
                   const MeshComplaint &complain);
 
 /** Throws InputError where cells overlap, or have hanging nodes. */

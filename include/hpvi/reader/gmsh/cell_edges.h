@@ -24,10 +24,10 @@ class CellEdges
 {
 public:
   /**
-   * Throws InputError where three cells have one edge, or two lie on the same side of it. Messages name the line of
-   * the file in which a cell stands.
+   * Throws InputError where three cells have one edge, or two lie on the same side of it. Messages name cells by
+   * their @p numbers_in_file.
    */
-  CellEdges(const CoarseMesh &mesh, const std::vector<std::size_t> &lines,
+  CellEdges(const CoarseMesh &mesh, const std::vector<std::size_t> &numbers_in_file,
             const MeshComplaint &complain);
 
   const std::vector<CellEdge> &all() const;
@@ -40,10 +40,11 @@ public:
 
 private:
   void check_pair(const CellEdge &one, const CellEdge &two) const;
+  std::string as_element(unsigned int cell) const; ///< for messages about two
   void find_loops();
 
   const CoarseMesh &mesh;
-  const std::vector<std::size_t> &lines;
+  const std::vector<std::size_t> &numbers_in_file;
   const MeshComplaint &complain;
   std::vector<CellEdge> edges; ///< sorted by the smaller vertex, then by the larger
   std::vector<unsigned int> boundary;

@@ -28,10 +28,10 @@ class CellFaces
 {
 public:
   /**
-   * Throws InputError where more than two cells have one face, or two lie on the same side of it. Messages name the line of the
-   * file in which a cell stands.
+   * Throws InputError where more than two cells have one face, or two lie on the same side of it. Messages name cells by
+   * their @p numbers_in_file.
    */
-  CellFaces(const HexahedralMesh &mesh, const std::vector<std::size_t> &lines,
+  CellFaces(const HexahedralMesh &mesh, const std::vector<std::size_t> &numbers_in_file,
             const MeshComplaint &complain);
 
   const std::vector<CellFace> &all() const;
@@ -47,7 +47,7 @@ private:
   unsigned int n_parts() const;
 
   const HexahedralMesh &mesh;
-  const std::vector<std::size_t> &lines;
+  const std::vector<std::size_t> &numbers_in_file;
   const MeshComplaint &complain;
   std::vector<CellFace> faces; ///< in the order in which cells have them first
   std::map<std::array<unsigned int, 4>, unsigned int> numbers; ///< by ascending corners

@@ -14,7 +14,7 @@ namespace hpvi
 /** What a scene says of a drawing. */
 struct DrawingRequest
 {
-  double size = 0;       ///< of cells [length]; 0: a quarter of the drawing's
+  double size = 0;       ///< of cells [length]; 0: a tenth of the drawing's
   double curvature = 12; ///< cells per turn of curves
   std::string unit;      ///< of the result; empty: the file's own
   std::map<std::int64_t, std::string> curves = {}; ///< names by the numbers of curves
@@ -31,8 +31,7 @@ struct DrawingLimits
 };
 
 /**
- * The drawing or mesh @p path, or the GivenMesh of that name, by its content: what is text of Gmsh in 4.1, 4.0 or 2.2 by read_gmsh_file(), a deck by
- * read_deck_mesh(), all else by the
+ * The drawing or mesh @p path, or the GivenMesh of that name, by its content: a deck by read_deck_mesh(), all else by the
  * program hpvi_drawing, a process beside this one. Throws InputError of one line, where that dies, too.
  */
 GmshFile read_drawing(const std::string &path, unsigned int dim, const DrawingRequest &request = {},

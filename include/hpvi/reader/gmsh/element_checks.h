@@ -9,8 +9,7 @@
 namespace hpvi
 {
 /**
- * Throws InputError unless there are cells, and these are quadrilaterals in physical surfaces, with lines of first or
- * second order.
+ * Throws InputError unless there are cells, and these are triangles or quadrilaterals in physical surfaces.
  */
 void check_elements(const GmshFile &file, const MeshComplaint &complain);
 

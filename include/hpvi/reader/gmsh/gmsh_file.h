@@ -26,7 +26,7 @@ struct ElementKind
 
 ElementKind element_kind(std::int64_t type);
 
-/** What stands in a mesh file, or in what a drawing was meshed to: nodes and elements in its order, names of physical groups. */
+/** What stands in a mesh file, or in what a drawing was meshed to: nodes, elements, names of physical groups. */
 struct GmshFile
 {
   using Group = std::pair<unsigned int, std::int64_t>; ///< dimension, tag
@@ -42,12 +42,11 @@ struct GmshFile
     std::int64_t type;
     std::int64_t group = 0;  ///< tag of its physical group; 0: none
     std::int64_t entity = 0; ///< tag of the curve, surface or volume of the drawing; 0: unknown
-    std::size_t line = 0;    ///< of the file; 0: it is no text of ours
+    std::size_t number = 0;  ///< that the file gives it; 0: none
     std::array<unsigned int, 9> nodes =
         {}; ///< indices into nodes: corners, middles of edges, the centre
   };
 
-  std::string version;
   std::vector<Node> nodes;
   std::vector<Element> elements; ///< but for points
   std::map<Group, std::string> names;
@@ -61,15 +60,12 @@ struct GmshFile
   CurvePiece curve(unsigned int from,
                    unsigned int to) const; ///< none: straight, or by nodes of elements
 
+  /** Of elements that are there once for each of several groups the one of the smallest group stays, of equal ones the first. */
+  void take_smallest_groups();
+
   /** In quotes, with the word curve or surface: of a group without a name its tag. */
   std::string words(const Group &group) const;
 };
-
-/**
- * Read the mesh file @p path of Gmsh, format 4.1, 4.0 or 2.2 in ASCII. Throws InputError of one line for one that is
- * missing, binary or damaged. Of a curve or surface in two physical groups the smaller one counts.
- */
-GmshFile read_gmsh_file(const std::string &path);
 } // namespace hpvi
 
 #endif

@@ -14,9 +14,9 @@ namespace hpvi
  * its physical surfaces and #surfaces of the mesh its physical volumes, in the order of their tags; one without a name is
  * called by its tag, and without any by their numbers. Corners stand in an order in which the edges of all cells run the same way.
  *
- * Throws InputError of one line (file, line where there is one, problem, remedy) for all else: a file that is missing or
+ * Throws InputError of one line (file, element where it has a number, problem, remedy) for all else: a file that is missing or
  * damaged; other elements; cells that are in no group, folded, with faces that are not plane to 1e-8 of their size, or not one
- * part connected through faces; nodes twice at one place or hanging; faces in two groups, in one and of no cell, or of more
+ * part connected through faces; nodes twice at one place or hanging; faces in a group and of no cell, or of more
  * than two cells; a group that lies on the boundary and inside; names that a scene cannot write.
  */
 HexahedralMesh read_hexahedral_file(const std::string &path, const DrawingRequest &request = {});

@@ -18,11 +18,8 @@ public:
   /** Names a line of the file, counted from 1. */
   [[noreturn]] void at(std::size_t line, const std::string &problem_and_remedy) const;
 
-  /** Throws it for a file that is damaged: the remedy is to make it anew. */
-  [[noreturn]] void damaged(std::size_t line, const std::string &problem) const;
-
-  /** The command that writes the file in a format which is read, for remedies. */
-  std::string rewriting() const;
+  /** Names an element by its number in the file; 0: it has none. */
+  [[noreturn]] void of(std::size_t element, const std::string &problem_and_remedy) const;
 
 private:
   const std::string file;

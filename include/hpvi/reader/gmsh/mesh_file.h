@@ -25,10 +25,12 @@ namespace hpvi
  * and of middle nodes off the chord by more than 1e-10 of its length, on the boundary, on named curves and between surfaces;
  * middles of other edges, and centres, are ignored.
  *
- * Throws InputError of one line (file, line where there is one, problem, remedy) for all else: a file that is
+ * Of cells and edges in several physical groups the smallest counts.
+ *
+ * Throws InputError of one line (file, element where it has a number, problem, remedy) for all else: a file that is
  * missing or damaged; cells that are in no group beside others that are, folded, or not one part connected
- * through edges; nodes outside the plane, twice at one place (to 1e-12 of the size) or hanging; edges in two groups,
- * or in one and of no cell; a group that lies on the boundary and inside; names that a scene cannot write.
+ * through edges; nodes outside the plane, twice at one place (to 1e-12 of the size) or hanging; edges in a group
+ * and of no cell; a group that lies on the boundary and inside; names that a scene cannot write.
  */
 CoarseMesh read_mesh_file(const std::string &path, const std::vector<std::string> &surfaces = {},
                           const DrawingRequest &request = {});

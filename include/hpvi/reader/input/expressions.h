@@ -3,6 +3,7 @@
 #define hpvi_expressions_h
 
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/scene/friction_law.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/point.h>
@@ -45,23 +46,32 @@ public:
   read(const std::string &section, const std::string &name, const std::string &absent,
        const std::vector<dealii::Point<dim>> &points, const ExactField &exact = {}) const;
 
-  /**
-   * Tresca's bound or Coulomb's coefficient: one function, null where the entry is empty or zero, and
-   * nowhere negative, @p remedy says why.
-   */
-  Expression read_bound(const std::string &section, const std::string &name,
-                        const std::vector<dealii::Point<dim>> &points,
-                        const std::string &remedy) const;
+  /** Friction bound and Friction coefficient, null where they are empty or zero, without Friction law. */
+  FrictionLaw<dim> read_friction(const std::string &section,
+                                 const std::vector<dealii::Point<dim>> &points) const;
 
 private:
   Expression make_exact(const std::string &section, const std::string &name,
                         const ExactField &exact, unsigned int component) const;
+  /** One function, null where the entry is empty or zero, and nowhere negative, @p remedy says why. */
+  Expression read_bound(const std::string &section, const std::string &name,
+                        const std::vector<dealii::Point<dim>> &points,
+                        const std::string &remedy) const;
+  /** @p function, which must be 0 or more wherever it is asked. */
+  Expression not_negative(const Expression &function, const std::string &section,
+                          const std::string &name, const std::vector<dealii::Point<dim>> &points,
+                          const std::string &remedy) const;
+  /** A Friction coefficient that says `p`. */
+  CoefficientByPressure<dim> make_coefficient(const std::string &section, const std::string &name,
+                                              const std::string &text) const;
   Expression make_function(const std::string &section, const std::string &name,
                            const std::string &text,
                            const std::vector<dealii::Point<dim>> &points) const;
   /** What is wrong with @p text, as far as the parser can tell: the end of a message. */
-  std::string objection(const std::string &text) const;
-  /** What the parser takes without complaint, but not as it is meant. */
+  std::string objection(const std::string &text, bool knows_pressure) const;
+  /** @p text as the parser takes it; refused what that takes without complaint, but not as it is meant, and all else. */
+  std::string checked(const std::string &section, const std::string &name,
+                      const std::string &text) const;
   void check_misreadings(const std::string &section, const std::string &name,
                          const std::string &text) const;
 

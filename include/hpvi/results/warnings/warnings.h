@@ -147,7 +147,7 @@ Warnings load_step_warnings(double relative_estimate);
  */
 Warnings dissipation_warnings(double at_ends, double trapezoidal, double energy);
 
-/** Of a history that is over: that its last cycle differs from the one before by a share @p change, more than @p asked_for; or none. */
+/** Of a history that is over: that its last cycle differs from the one before by a share @p change, more than @p asked_for. */
 Warnings steady_warnings(double change, double asked_for);
 
 /** That a bound from 1e-12 to 1e-9 of the solution holds up to round-off, and how much that is; or none. */
