@@ -13,6 +13,7 @@ SOURCES = {
     "V6.04.128": "code_aster, Validation manual V6.04.128, SSNV128 (results of GRECO, averaged over programs, tolerance 5 %)",
     "SSNP154": "code_aster, V6.03.154, SSNP154 and astest/ssnp154d.comm; A. Konter, Advanced Finite Element Contact Benchmarks, FENET-UNOTT-DLE-09, 2005, and NAFEMS 2006",
     "SSNA122": "code_aster, V6.01.122, SSNA122 and astest/ssna122b.comm; A. Konter, Advanced Finite Element Contact Benchmarks, FENET-UNOTT-DLE-09, 2005, and NAFEMS 2006",
+    "SSNP156": "code_aster, V6.03.156, SSNP156 and astest/ssnp156a.com1; A. Konter, Advanced Finite Element Contact Benchmarks, FENET-UNOTT-DLE-09, 2005, and NAFEMS 2006",
     "CGS-4": "NAFEMS, benchmark CGS-4 of the set of contact and gap elements, as FrontISTR states it; statics",
     "V6.04.104": "code_aster, V6.04.104, SSNV104, by Hertz's theory; H. Hertz, doi:10.1515/crll.1882.92.156",
     "V6.03.121": "code_aster, V6.03.121, SSNP121; N. El-Abbasi, K. J. Bathe, doi:10.1016/S0045-7949(01)00048-7",
@@ -95,6 +96,8 @@ NUMBERS = "The source averages several programs, some with large deformations; h
 MESH = "Here M is the point of the foundation on the axis, and its bottom is held. Strains are a thousandth, so large deformations change little. code_aster's linear and \
 quadratic cells have -0.130734 and -0.132941 without friction (astest/ssna122a.comm, ssna122b.comm), and hpvi's quadratic cells are as far off. In a trial with CalculiX 2.20, which no command repeats, CAX8 cells \
 of 1 mm have -0.1320 in the node on the axis and -0.1335 beside it. Large deformations change that by 0.2 %"
+PIN = "The source has large deformations, linear cells and a point force. Its stress is extrapolated to a node, where friction changes its sign. The rows of other coefficients of friction show \
+how much friction matters there"
 PUNCHES = "The printed value is a stress, extrapolated from cells to the node on the axis. Its mesh is not published. The rows of quadratic cells show how far such a mesh may be off"
 ROWS = [
     *(row(f"ssnv128 u{k}", "ssnv128", f"u_x at x = {x}", "um", ("column", f"u{k}_ux", 1e3), text, "V6.04.128", differs=NUMBERS)
@@ -122,6 +125,10 @@ ROWS = [
           shows="nafems-2 syy", entries={"Adaptivity/Method": "hup2", "Adaptivity/Start degree": "2", "Adaptivity/Maximum steps": str(k)}) for k, h in ((2, 5), (3, 2.5))),
     row("nafems-2 f uy", "nafems-2-friction", "u_y of the foundation on the axis (M), f = 0.1", "mm", ("contact", "foundation.top", "normal_displacement", 0, 1), "-0.13079352874552", "SSNA122", differs=MESH),
     row("nafems-2 f syy", "nafems-2-friction", "s_yy of the foundation on the axis (M), f = 0.1", "N/mm^2", ("contact", "foundation.top", "normal_traction", 0, 1), "-95.473963617886994", "SSNA122", differs=PUNCHES),
+    row("loaded-pin ux", "loaded-pin", "u_x of the sheet at (50, 0)", "mm", ("column", "S_ux", 1), "0.71799091025213", "SSNP156", differs=PIN),
+    row("loaded-pin s", "loaded-pin", "s_xx of the sheet at (50, 0)", "N/mm^2", ("column", "S_s2", 1), "-136.67272217658", "SSNP156", differs=PIN),
+    *(row(f"loaded-pin {name} f = {f}", "loaded-pin", f"{what} at (50, 0), f = {f}", unit, ("column", column, 1), reference, "SSNP156", shows=f"loaded-pin {name}", entries={"Contact seat/Friction coefficient": f})
+      for name, what, unit, column, reference in (("ux", "u_x", "mm", "S_ux", "0.71799091025213"), ("s", "s_xx", "N/mm^2", "S_s2", "-136.67272217658")) for f in ("0", "0.2")),
     *(row(f"cgs-4 f = {f}", "cgs-4", f"F/G, f = {f}", "-", ("force", "left", "support", "Fx", 1 / 40), text, "CGS-4", "F/G = (tan a + f)/(1 - f tan a), tan a = 0.1",
           entries={"Boundary bottom/Friction coefficient": f}) for f, text in (("0", "0.1"), ("0.1", "0.202020"), ("0.2", "0.306122"), ("0.3", "0.412371"))),
     row("ssnv104 p0", "ssnv104", "largest pressure", "N/mm^2", ("contact", "pole", "normal_traction", 0, -1), "2798.33", "V6.04.104", "E (2 h/R)^(1/2)/(pi (1 - nu^2))",
@@ -187,6 +194,10 @@ ROWS = [
     row("space-coulomb Tz", "space-coulomb", "friction along z", "-", ("column", "friction_resultant_z", 1), None, "hpvi"),
     row("space-coulomb My", "space-coulomb", "moment of friction about (1, 0.5, 0.5)", "-", ("force", "bottom", "contact", "My", 1), None, "hpvi"),
     row("space-coulomb Mx", "space-coulomb", "moment of the contact about the x axis there", "-", ("force", "bottom", "contact", "Mx", 1), None, "hpvi"),
+    row("space-blocks Tx", "space-blocks", "friction along x", "-", ("column", "friction_resultant_x", 1), None, "hpvi"),
+    row("space-blocks Tz", "space-blocks", "friction along z", "-", ("column", "friction_resultant_z", 1), None, "hpvi"),
+    row("space-blocks My", "space-blocks", "moment of friction about (1, 0, 0.5)", "-", ("force", "upper.bottom", "contact", "My", 1), None, "hpvi"),
+    row("space-blocks Mx", "space-blocks", "moment of the contact about the x axis there", "-", ("force", "upper.bottom", "contact", "Mx", 1), None, "hpvi"),
     row("spence T", "spence", "friction over force, half", "-", ("ratio", "friction_resultant", "normal_resultant", -1), None, "Spence"),
 ]
 
@@ -196,6 +207,7 @@ TOLERANCES = {"V6.04.128": 0.05, "SSNP154": 0.029}
 TWINS = {
     "layer": {"Adaptivity/Method": "hpa2", "Geometry/Subdivisions": "18, 3", "Solver/Normal contact": "multiplier", "Adaptivity/Maximum steps": "20"},
     "space-coulomb": {"Geometry/Subdivisions": "6, 3, 3"},
+    "space-blocks": {"Body upper/Subdivisions": "5, 3, 3", "Body lower/Subdivisions": "4, 2, 2"},
     "spence": "spence-half",
 }
 # Of own cases: value and half-width; `./run published` writes these lines.
@@ -208,6 +220,10 @@ OWN = {
     "space-coulomb Tz": (-0.029268255650068076, 2e-08),
     "space-coulomb My": (0.0009203616830416887, 4.3e-10),
     "space-coulomb Mx": (0.01201009779945362, 6.8e-08),
+    "space-blocks Tx": (-0.04753188385566574, 1.3e-08),
+    "space-blocks Tz": (-0.030952494326053577, 2.2e-08),
+    "space-blocks My": (0.0010085237581186279, 2e-08),
+    "space-blocks Mx": (-0.0009251727711985927, 1.2e-07),
     "spence T": (0.19621942960745364, 1.7e-07),
 }
 
