@@ -458,7 +458,7 @@ def main():
 
     order = reading_order()
     own = {name: (PAGES / f"{name}.md").read_text() for name in (
-        "index", "introduction", "unilateral", "coulomb", "materials", "shapes", "drawings", "pairs", "space", "processes", "probes", "paraview",
+        "index", "introduction", "unilateral", "friction", "materials-and-loads", "shapes", "drawings", "pairs", "bodies-in-space", "processes", "probes", "paraview",
         "results", "sweeps", "first-problem", "own-scene", "gallery", "library", "extensions", "columns", "messages", "entries", "program")}
     generated = {"ENTRIES": list_of_entries(program), "LIST": "\n".join(
         f"{k}. [{title}](../../source/{noun}.cc), `{noun}`" for k, (noun, title) in enumerate(order, 1))}

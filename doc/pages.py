@@ -6,8 +6,8 @@ pages.py [--check | --longest PAGE]
 
 Limits: lines of 120 characters, tables and lines that are one link excepted; 20 words a sentence on average and 35 in any; 40 words in
 a cell of a table; README.md 9000 bytes and 120 lines; doc/manual 350 kB. Code, formulas, headings and quoted messages are not counted;
-a formula, or a name in backticks, is one word. --check ends with 1 where a page exceeds a limit, a link leads nowhere, or a notebook
-has outputs. --longest prints the sentences of a page that are too long, with lines and cells that are.
+a formula, or a name in backticks, is one word. --check ends with 1 where a page exceeds a limit, a link leads nowhere, two
+pages have one name, the start page of the manual leaves one out, or a notebook has outputs. --longest prints the sentences of a page that are too long, with lines and cells that are.
 """
 import json
 import pathlib
@@ -108,8 +108,17 @@ def missing_links():
     return found if n > 300 else [f"of the links of all pages {n} are found"]
 
 
+def misplaced():
+    """Pages of doc/ and doc/manual of one name, and those that the start page of the manual does not list."""
+    start = (ROOT / "doc/manual/index.md").read_text()
+    guide, theory = ({page.name for page in (ROOT / folder).glob("*.md")} for folder in ("doc/manual", "doc"))
+    return [f"doc/{name} and doc/manual/{name}: one name for two pages" for name in sorted(guide & theory)] \
+        + [f"doc/manual/index.md does not list {link}" for link in sorted(guide - {"index.md"}) + [f"../{name}" for name in sorted(theory)]
+           if f"]({link}" not in start]
+
+
 def complaints():
-    found = missing_links()
+    found = missing_links() + misplaced()
     readme = (ROOT / "README.md").read_bytes()
     for name, value in (("bytes", len(readme)), ("lines", readme.count(b"\n"))):
         if value > README[name]:
