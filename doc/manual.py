@@ -11,7 +11,6 @@ read it. Whatever Doxygen warns of ends the run.
 """
 import argparse
 import csv
-import html
 import json
 import os
 import pathlib
@@ -166,13 +165,16 @@ def named(section):
     return re.sub("^(Boundary|Material|Contact|Pretension|Probe|Body(?! force$)) .*", r"\1 NAME", section)
 
 
-def scene_examples():
-    """The shortest value that a scene gives each entry, and the scene's name."""
+def scene_examples(defaults):
+    """The shortest value that a scene gives each entry, if possible another one than the default, and the scene's name."""
     examples = {}
+
+    def rank(key, value):
+        return value == defaults.get(key), len(value)
     for scene in sorted((ROOT / "prm").glob("*.prm")):
         for section, name, value, _ in assignments(scene.read_text()):
             key = (named(section), name)
-            if value and (key not in examples or len(value) < len(examples[key][0])):
+            if value and (key not in examples or rank(key, value) < rank(key, examples[key][0])):
                 examples[key] = (value, scene.name)
     return examples
 
@@ -206,7 +208,7 @@ def check_example(program, key, value):
 
 
 def escaped(text):
-    return html.escape(text, quote=False)
+    return text.replace("&", "&amp;").replace("<", "&lt;")
 
 
 def code(text):
@@ -214,18 +216,23 @@ def code(text):
 
 
 def list_of_entries(program):
-    examples, lines, last = scene_examples(), [], None
+    entries, lines, last = assignments(run(program, "--print-parameters")), [], None
+    examples = scene_examples({(named(section), name): default for section, name, default, _ in entries})
     seen, said = set(), {}
-    for section, name, default, comment in assignments(run(program, "--print-parameters")):
+    for section, name, default, comment in entries:
         key = (named(section), name)
+        comment, accepts, accepted = comment.rpartition(" Accepts ")
+        if not accepts:
+            sys.exit(f"manual.py: {key[0]}/{name} does not say what it accepts")
         if key in seen:
             continue  # of another side
         seen.add(key)
         of_all = key if key in EXAMPLES else (key[0].replace("Material NAME", "Material"), name)  # a named material inherits it
         if key[0] == "Body NAME" and key not in examples and key not in EXAMPLES:
             of_all = ("Geometry", name)  # which says the same of one body
-        if key in examples or of_all in examples:
-            value, where = examples.get(key) or examples[of_all]
+        shown = examples.get(key) or examples.get(of_all)
+        if shown and not (shown[0] == default and of_all in EXAMPLES):
+            value, where = shown
         elif of_all in EXAMPLES:
             value, where = EXAMPLES[of_all], ""
             check_example(program, of_all, value)
@@ -236,7 +243,7 @@ def list_of_entries(program):
             lines += ["", f"## {key[0] or 'The scene'} <a id=\"entries_{anchor}\"></a>", ""]
             last = key[0]
             alike = []
-        facts = [f"Default {code(default) or 'empty'}", f"example {code(value)}" + (f" in prm/{where}" if where else "")]
+        facts = [f"Accepts {escaped(accepted[:-1])}", f"Default {code(default) or 'empty'}", f"Example {code(value)}" + (f" in prm/{where}" if where else "")]
         base, inherits = {"Body NAME": ("Geometry", ""), "Material NAME": ("Material", " Empty: as of the unnamed Material.")}.get(key[0], ("", ""))
         said[key] = comment
         if base and comment == said.get((base, name), "") + inherits:
@@ -245,7 +252,7 @@ def list_of_entries(program):
             alike.append(f"**{escaped(name)}**,")
             continue
         place = re.sub(r"\W", "_", name.lower())
-        lines += [f"### {escaped(name)} <a id=\"{anchor}_{place}\"></a>", "", escaped(comment), "", "; ".join(facts) + ".", ""]
+        lines += [f"### {escaped(name)} <a id=\"{anchor}_{place}\"></a>", "", escaped(comment), "", ". ".join(facts) + ".", ""]
     return "\n".join(line if isinstance(line, str) else " ".join(line)[:-1] + "." for line in lines).strip()
 
 

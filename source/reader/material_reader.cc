@@ -33,7 +33,8 @@ struct Inheritance
 
   std::string words(const std::string &words) const
   {
-    return words + (is_named ? ", or nothing" : "");
+    const bool may_be_empty = words.find("or nothing") != std::string::npos;
+    return words + (is_named && !may_be_empty ? ", or nothing" : "");
   }
 
   std::string documentation(const std::string &text) const

@@ -87,9 +87,10 @@ Parameters::Parameters(std::vector<Entry> all_entries, std::vector<Alias> all_al
 {
   for (const Entry &entry : entries)
     in_section(entry.section,
-               [&]() {
+               [&]()
+               {
                  prm.declare_entry(entry.name, entry.default_value, *entry.pattern,
-                                   entry.documentation);
+                                   entry.documentation + " Accepts " + entry.wanted + ".");
                });
 }
 
