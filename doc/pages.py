@@ -4,10 +4,11 @@
 
 pages.py [--check | --longest PAGE]
 
-Limits: lines of 120 characters, tables and lines that are one link excepted; 20 words a sentence on average and 35 in any; 40 words in
-a cell of a table; README.md 9000 bytes and 120 lines; doc/manual 350 kB. Code, formulas, headings and quoted messages are not counted;
-a formula, or a name in backticks, is one word. --check ends with 1 where a page exceeds a limit, a link leads nowhere, two
-pages have one name, the start page of the manual leaves one out, or a notebook has outputs. --longest prints the sentences of a page that are too long, with lines and cells that are.
+Limits: no words of a diary; lines of 120 characters, tables and lines that are one link excepted; 20 words a sentence on average and 35
+in any; 40 words in a cell of a table; README.md 9000 bytes and 120 lines; doc/manual 350 kB. Code, formulas, headings and quoted messages
+are not counted; a formula, or a name in backticks, is one word. --check ends with 1 where a page exceeds a limit, a link leads nowhere,
+two pages have one name, the start page of the manual leaves one out, or a notebook has outputs. --longest prints what exceeds the limits
+of a page.
 """
 import json
 import pathlib
@@ -19,7 +20,9 @@ LINE, AVERAGE, SENTENCE, CELL = 120, 20, 35, 40
 README = {"bytes": 9000, "lines": 120}
 MANUAL = 350000
 # What a page may have, column by column.
-LIMITS = {"long_lines": 0, "words_per_sentence": AVERAGE, "long_sentences": 0, "long_cells": 0}
+LIMITS = {"diary": 0, "long_lines": 0, "words_per_sentence": AVERAGE, "long_sentences": 0, "long_cells": 0}
+COMMIT = r"(?<![./\d])\b(?=[0-9a-f]*\d)(?=[0-9a-f]*[a-f])(?:[0-9a-f]{7,8}|[0-9a-f]{40})\b(?![-+.]\d)"
+DIARY = re.compile(r"(?i:\b(?:ours|yesterday|today|tonight|recently|of late|(?:this|last|one) (?:morning|afternoon|evening|night|week|month))\b)|" + COMMIT)
 ABBREVIATION = re.compile(r"\b(?:e\.g|i\.e|cf|vs|Fig|Eq|No|resp|approx|pp?)\.$")
 
 
@@ -79,9 +82,16 @@ def long_lines(text):
             if len(line) > LINE and not re.match(r"\||<|>|#|\s*(?:- )?!?\[[^\]]*\]\([^)]*\)[.,;]?$|@\w+ .*@$", line)]
 
 
+def diary(text):
+    """Words of a day or of an owner, and commits: a page says what holds, and CHANGELOG.md what changed."""
+    prose = re.sub(r"`[^`]*`|\]\([^)]*\)", "", without_code(text))
+    return [match[0] for match in DIARY.finditer(prose)]
+
+
 def measured(text):
     lengths = [n_words(sentence) for sentence in sentences(text)]
-    return {"long_lines": len(long_lines(text)),
+    return {"diary": len(diary(text)),
+            "long_lines": len(long_lines(text)),
             "words_per_sentence": -(-sum(lengths) // len(lengths)) if lengths else 0,
             "long_sentences": sum(length > SENTENCE for length in lengths),
             "long_cells": sum(n_words(plain(cell)) > CELL for cell in cells(text))}
@@ -149,7 +159,8 @@ def show():
 def main():
     if sys.argv[1:2] == ["--longest"]:
         text = (ROOT / sys.argv[2]).read_text()
-        print("\n".join([f"{n_words(one)} words: {one}" for one in sentences(text) if n_words(one) > SENTENCE]
+        print("\n".join([f"of a diary: {one}" for one in diary(text)]
+                        + [f"{n_words(one)} words: {one}" for one in sentences(text) if n_words(one) > SENTENCE]
                         + [f"{n_words(plain(one))} words: {one}" for one in cells(text) if n_words(plain(one)) > CELL]
                         + [f"{len(one)} characters: {one}" for one in long_lines(text)]))
     elif sys.argv[1:] == ["--check"]:
