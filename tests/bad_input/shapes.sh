@@ -159,6 +159,9 @@ for override in "${both[@]}" "Contact c/Between=a.joint, b.bottom"; do
   arguments+=(--set "$override")
 done
 refused "Contact c/Between = a.joint, b.bottom" "names a.joint, a curve inside of body a" "by its Surfaces" -- --validate "${arguments[@]}" "$scratch/two.prm"
+refused "Boundary foundation" "this scene has: a.inside, a.outside, a.start, a.end, b.left, b.right, b.bottom, b.top and a.joint" -- \
+  --validate "${arguments[@]}" --set "Boundary foundation/Pressure=1" "$scratch/two.prm"
+refused "body.msh: Surfaces names bushes" "it has bush and rim" -- --validate "${arguments[@]}" --set "Body a/Surfaces=bushes" "$scratch/two.prm"
 invalid "Boundary part/Curve" "unknown entry" -- "Boundary part/On=inside" "Boundary part/Where=1" "Boundary part/Curve=circle"
 invalid "Boundary part/Where" "where the mesh has a vertex" -- "Boundary part/On=inside" "Boundary part/Where=x - 0.7"
 invalid "Boundary part/On = joint" "is no side" "give inside, outside, start or end" -- "Boundary part/On=joint" "Boundary part/Where=1"

@@ -57,8 +57,10 @@ def command_problems(name, text):
     """Commands in words and code have options and files that are there; what is written in capitals the reader replaces."""
     options = set(re.findall(r"--[a-z-]+", subprocess.run([HPVI, "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout))
     cases = {word for line in re.findall(r"^  ([\w| -]+)\)$", (ROOT / "run").read_text(), re.M) for word in line.split(" | ")}
+    others = {option for path in (ROOT / "run", *(ROOT / "doc").glob("*.py")) for option in re.findall(r"--[a-z-]+", path.read_text())}
+    problems = [f"{name}.md: there is no option {option}" for option in re.findall(r"`(--[a-z-]+)[^`\n]*`", text)
+                if option not in options | others]
     made = {"first.prm", *re.findall(r"`(\w+\.\w+)`:\n", text), "scene.prm"}  # by the reader, by a run
-    problems = []
     for command in re.findall(r"(?:`|^(?:\$ )?)((?:\./run|(?:build/)?hpvi) [^`\n#]*)", text, re.M):
         program, *words = command.replace('"', "").split()
         if not words or (program == "./run" and words[0] in cases):  # with options of its own

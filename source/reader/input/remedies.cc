@@ -77,7 +77,8 @@ std::vector<std::string> Remedies::sections() const
 {
   std::vector<std::string> result;
   for (const Entry &entry : entries)
-    if (!entry.section.empty() && (result.empty() || result.back() != entry.section))
+    if (!entry.section.empty() &&
+        std::find(result.begin(), result.end(), entry.section) == result.end())
       result.push_back(entry.section);
   return result;
 }

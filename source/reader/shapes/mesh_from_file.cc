@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -88,15 +89,14 @@ std::vector<std::string> words_in(const std::string &list)
   return Utilities::split_string_list(list, ',');
 }
 
-/** What a body takes is in the file. */
-void check_surfaces(const Parameters &parameters, const std::vector<std::string> &wanted,
-                    const CoarseMesh &mesh)
+/** What a body takes is in the file; @p reject is told what is not. */
+void check_surfaces(const std::vector<std::string> &wanted, const CoarseMesh &mesh,
+                    const std::function<void(const std::string &)> &reject)
 {
   for (const std::string &surface : wanted)
     if (std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) == mesh.surfaces.end())
-      parameters.reject("Geometry", "Surfaces",
-                        "names " + printable(surface) + ", which the mesh has not; it has " +
-                            listed(mesh.surfaces, "and"));
+      reject("names " + printable(surface) + ", which the mesh has not; it has " +
+             listed(mesh.surfaces, "and"));
 }
 
 /** Numbers that its entry `Curves` has. */
@@ -137,7 +137,9 @@ void read_file(const Parameters &parameters, Geometry<2> &geometry)
                                                 ? words_in(parameters.text("Geometry", "Surfaces"))
                                                 : std::vector<std::string>();
   CoarseMesh mesh = read_mesh_file(path, surfaces, request_of(parameters, prefix));
-  check_surfaces(parameters, surfaces, mesh);
+  check_surfaces(surfaces, mesh,
+                 [&](const std::string &problem)
+                 { parameters.reject("Geometry", "Surfaces", problem); });
   if (const unsigned int n = n_parts(mesh); n > 1)
     throw InputError(printable(path, 400) + ": the cells make " + std::to_string(n) +
                      " parts that no edge connects, and a body is one part; save a file for each, "
@@ -266,7 +268,12 @@ ShapeKind<2> mesh_from_file()
             for (const std::string &line : Utilities::split_string_list(text("Curves of all"), ';'))
               if (const std::size_t equals = line.find('='); equals != std::string::npos)
                 take_curves(line.substr(0, equals), line.substr(equals + 1), request);
-            const CoarseMesh mesh = read_mesh_file(file, words_in(text("Surfaces")), request);
+            const std::vector<std::string> surfaces = words_in(text("Surfaces"));
+            const CoarseMesh mesh = read_mesh_file(file, surfaces, request);
+            if (mesh.cells.empty()) // else the entry is refused where the body is read
+              check_surfaces(surfaces, mesh,
+                             [&](const std::string &problem)
+                             { throw InputError(printable(file, 400) + ": Surfaces " + problem); });
             require_names(mesh.boundaries, file, "curve");
             return SideNames{mesh.boundaries, mesh.interfaces, true};
           },
