@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside
-GetFEM, the growth of iterations and memory up to a million unknowns, speed-up, where the primal path
-overtakes the reduced one in the plane, and what Coulomb's law takes, and coarse meshes of many cells. Runs that are there already are not repeated; --without million leaves some out;
---large measures ten and thirty million unknowns instead, which wants 24 GB that are free; --draw runs nothing and draws the charts from the tables of doc/space."""
+"""Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside GetFEM, the growth of
+iterations and memory up to a million unknowns, speed-up, where the primal path overtakes the reduced one in the plane, what Coulomb's
+law takes, and coarse meshes of many cells. Tables go to doc/space, and into doc/space.md between its marker comments. Runs that are there
+already are not repeated; --without million leaves some out; --large measures ten and thirty million unknowns instead, which wants 24 GB
+that are free; --draw runs nothing, and draws the charts and writes the page from the tables of doc/space."""
 import argparse
 import csv
 import json
 import os
 import pathlib
+import re
 import resource
 import subprocess
+import sys
 import time
 
 import matplotlib
@@ -289,6 +292,48 @@ def draw_crossover():
            for path in ("reduced", "primal")}, ticks=([250, 500, 1000, 2000], [0.3, 0.5, 1, 2, 3]))
 
 
+def count(field):
+    """A whole number in groups of three digits."""
+    return f"{int(float(field)):,}".replace(",", " ")
+
+
+# Of each table in doc/space.md: headings, and what stands below them for a row of the table in doc/space.
+PAGE = {
+    "coarse": ("coarse cells | meshes | free unknowns | Newton steps, last mesh | conjugate-gradient steps | gigabytes | CPU seconds", lambda row: [
+        count(row["coarse_cells"]), row["meshes"], count(row["dofs_free"]), row["newton_steps"], row["newton_cg"],
+        f"{float(row['gigabytes']):.2f}", row["cpu_seconds"]]),
+    "million": ("free unknowns | multipliers | Newton steps | conjugate-gradient steps | slipping discs | J (Lagrangian) | peak memory of both, bytes",
+                lambda row: [*(count(row[name]) for name in ("dofs_free", "multipliers", "newton_steps", "newton_cg", "slipping")),
+                             f"{float(row['lagrangian']):.6f}", f"{float(row['peak_memory']):.2e}"]),
+    "large": ("free unknowns | multipliers | processes | Newton steps | conjugate-gradient steps | gigabytes | wall seconds", lambda row: [
+        count(row["dofs_free"]), count(row["multipliers"]),
+        *(row[name] for name in ("processes", "newton_steps", "newton_cg", "gigabytes", "wall_seconds"))]),
+    "robust": ("case | value | free unknowns | Newton steps | conjugate-gradient steps each | CPU s of the run", lambda row: [
+        row["case"], row["value"], count(row["dofs_free"]), *(row[name] for name in ("newton_steps", "cg_per_newton_step", "cpu_seconds"))]),
+    "accuracy": ("method | free unknowns | relative error | CPU seconds of the run", lambda row: [
+        row["method"], count(row["dofs_free"]), f"{float(row['error']):.2e}", f"{float(row['cpu_seconds']):.2f}"]),
+    "crossover": ("multipliers | reduced path, CPU s of a run | primal path, CPU s of a run | primal step over its sparse factorisations",
+                  lambda row: [count(row["multipliers"]),
+                               *(row[name] for name in ("reduced_cpu_seconds", "primal_cpu_seconds", "step_over_factorisations"))]),
+    "coulomb": ("problem | mu_f | free unknowns | slip, of points that press | problems of Tresca | Newton steps in all of them | conjugate-gradient steps",
+                lambda row: [row["method"], row["coefficient"], count(row["dofs_free"]), f"{row['slipping']} of {row['pressing']}",
+                             *(row[name] for name in ("tresca_problems", "newton_steps", "cg_steps"))])}
+
+
+def write_page():
+    page = pathlib.Path("doc/space.md")
+    text = page.read_text()
+    for name, (heads, cells) in PAGE.items():
+        with (FIGURES / f"{name}.csv").open(newline="") as file:
+            lines = [heads, "|".join(["---"] * len(heads.split(" | "))),
+                     *(" | ".join(cells(row)) for row in csv.DictReader(file) if row.get("dofs_free", "-"))]
+        table = "".join(f"| {line} |\n" if "---" not in line else f"|{line}|\n" for line in lines)
+        text, found = re.subn(rf"(<!-- {name}: begin[^\n]*\n).*?(<!-- {name}: end)", lambda m: m[1] + table + m[2], text, flags=re.S)
+        if found != 1:
+            sys.exit(f"{page} has no place for the table {name}")
+    page.write_text(text)
+
+
 if options.draw:
     draw_accuracy()
     draw_million()
@@ -298,3 +343,4 @@ if options.draw:
 for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse):
     if not options.draw and part.__name__ not in options.without:
         part()
+write_page()
