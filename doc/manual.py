@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Write the manual: pages of doc/manual, the commented sources, and what the program says of itself.
+"""Write the manual: pages of doc/manual, those of doc with the theory, the commented sources, and what the program says of itself.
 
 manual.py --program build/hpvi --output build/doc [--check]
 
@@ -22,11 +22,12 @@ import sys
 
 import rooms
 import scenes
+from pages import slug
 from scenes import assignments
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ROOT / "doc/manual"
-OF_REPOSITORY = ("CONTRIBUTING.md", "doc/architecture.md", "doc/decisions.md")
+OF_REPOSITORY = ("CONTRIBUTING.md", *sorted(f"doc/{page.name}" for page in (ROOT / "doc").glob("*.md") if page.name != "python.md"))
 MATHJAX = pathlib.Path("/usr/share/javascript/mathjax")
 # Entries that no scene of prm/ sets: what one could write.
 EXAMPLES = {
@@ -83,6 +84,9 @@ def renewed(path, text):
 
 # Prose
 
+CODE = r"(^```.*?^```$|^ {4}.*?$|``[^`\n]*``|`[^`\n]*`)"
+
+
 def doxygen_math(text):
     """Dollars are TeX as in deal.II's comments, except in code."""
     def formulas(prose):
@@ -96,7 +100,7 @@ def doxygen_math(text):
         return r"\f[" + re.sub(r"\\tag\{(.*?)\}", lambda m: rf"{gap} \text{{({m[1]})}}", formula) \
             + r"\f]"
 
-    parts = re.split(r"(^```.*?^```$|`[^`\n]*`)", text, flags=re.S | re.M)
+    parts = re.split(CODE, text, flags=re.S | re.M)
     return "".join(part if k % 2 else formulas(part) for k, part in enumerate(parts))
 
 
@@ -413,9 +417,11 @@ def linked(text, home):
             return f"[{words}](@ref python)"
         if path.suffix == ".cc" and str(path.relative_to(path.parts[0]).with_suffix("")) in dict(reading_order()):
             return f"[{words}](@ref program_{path.stem})"
-        if path.parent == pathlib.Path("prm"):
+        if path.parent == pathlib.Path("prm") and path.suffix == ".prm":
             return f"[{words}](@ref scene_{path.stem.replace('-', '_')})"
-        if path.suffix == ".md" and (ROOT / path.parent == PAGES or str(path) in OF_REPOSITORY):
+        if str(path) in OF_REPOSITORY:
+            return f"[{words}](@ref {'--'.join(filter(None, (path.stem.lower(), anchor)))})"
+        if path.suffix == ".md" and ROOT / path.parent == PAGES:
             return f"[{words}](@ref {anchor or path.stem.lower()})"
         return words if words == str(path) else f"{words} ({path})"
 
@@ -424,10 +430,34 @@ def linked(text, home):
     return text.replace('"../gallery/', '"gallery/')
 
 
+def spans(paragraph):
+    """Each name or formula between backticks on one line, and between two of them where an apostrophe would end it for Doxygen."""
+    parts = paragraph.split("`")
+    if "``" in paragraph or len(parts) % 2 == 0:
+        return paragraph
+    for k in range(1, len(parts), 2):
+        ticks = "``" if "'" in parts[k] else "`"
+        parts[k] = f"{ticks}{' '.join(parts[k].split())}{ticks}"
+    return "".join(parts)
+
+
 def of_repository(name):
-    """A page that is no part of doc/manual."""
-    text = linked((ROOT / name).read_text(), (ROOT / name).parent)
-    return doxygen_math(re.sub("^# (.*)$", rf"# \1 {{#{pathlib.Path(name).stem.lower()}}}", text, count=1, flags=re.M))
+    """A page that is no part of doc/manual: its headings have their names behind that of the page."""
+    stem = pathlib.Path(name).stem.lower()
+
+    def heading(match):
+        level, words, anchor = match.groups()
+        return f"{level} {words} {{#{stem if level == '#' else f'{stem}--{anchor or slug(words)}'}}}"
+
+    def prose(text):
+        text = re.sub(r"^(#+) (.*?)(?: <a id=\"([\w-]+)\"></a>)?$", heading, text, flags=re.M)
+        text = re.sub(r"\]\(#([\w-]+)\)", rf"](@ref {stem}--\1)", text)
+        text = re.sub(r"<(?!/?\w[^<>\n]*>)", "&lt;", linked(text, (ROOT / name).parent))
+        return re.sub(r"@(?!ref )", r"\\@", text)
+
+    text = re.sub(r"<!--.*?-->\n?", "", (ROOT / name).read_text(), flags=re.S)
+    parts = re.split(CODE, "\n\n".join(map(spans, text.split("\n\n"))), flags=re.S | re.M)
+    return doxygen_math("".join(part if k % 2 else prose(part) for k, part in enumerate(parts)))
 
 
 def session(text):
@@ -447,8 +477,9 @@ def short(field):
 def images_of(text, sources):
     """Copies the images that a page shows to where Doxygen looks for them."""
     def copied(match):
-        shutil.copy(ROOT / "doc" / match[2], sources / pathlib.Path(match[2]).name)
-        return f"![{match[1]}]({pathlib.Path(match[2]).name})"
+        name = match[2].replace("/", "-")
+        shutil.copy(ROOT / "doc" / match[2], sources / name)
+        return f"![{match[1]}]({name})"
     return re.sub(r"!\[([^\]]*)\]\((?:\.\./)?([\w-]+/[^)]*)\)", copied, text)
 
 

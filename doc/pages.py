@@ -97,12 +97,16 @@ def measured(text):
             "long_cells": sum(n_words(plain(cell)) > CELL for cell in cells(text))}
 
 
+def slug(heading):
+    """What GitHub calls a heading."""
+    return re.sub(r"[^\w -]", "", re.sub(r"<[^>]*>| \{#[\w-]+\}$|\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()).replace(" ", "-")
+
+
 def places(path):
     """What links may name behind a hash: headings as GitHub calls them, and anchors."""
     text = re.sub(r"^```.*?^```", "", path.read_text(), flags=re.S | re.M)
-    headings = [re.sub(r"<[^>]*>| \{#[\w-]+\}$|\[([^\]]*)\]\([^)]*\)", r"\1", heading) for heading in re.findall(r"^#+ (.*?)$", text, re.M)]
     return {first or second for first, second in re.findall(r"\{#([\w-]+)\}|<a id=\"([\w-]+)\">", text)} \
-        | {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+        | {slug(heading) for heading in re.findall(r"^#+ (.*?)$", text, re.M)}
 
 
 def missing_links():

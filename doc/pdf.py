@@ -15,6 +15,7 @@ import subprocess
 import sys
 
 from manual import MATHJAX, PAGES, ROOT
+from pages import slug
 
 STYLE = """<style>
 body { max-width: none; font-family: serif; font-size: 11pt; }
@@ -40,10 +41,6 @@ def pages():
 
 def label(page):
     return "-".join(page.relative_to(ROOT / "doc").with_suffix("").parts)
-
-
-def slug(heading):
-    return re.sub(r"[^\w -]", "", re.sub(r"<[^>]*>|\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()).replace(" ", "-")
 
 
 def inside(page, known):
