@@ -250,12 +250,12 @@ def list_of_entries(program):
         facts = [f"Accepts {escaped(accepted[:-1])}", f"Default {code(default) or 'empty'}", f"Example {code(value)}" + (f" in prm/{where}" if where else "")]
         base, inherits = {"Body NAME": ("Geometry", ""), "Material NAME": ("Material", " Empty: as of the unnamed Material.")}.get(key[0], ("", ""))
         said[key] = comment
+        place = re.sub(r"\W", "_", name.lower())
         if base and comment == said.get((base, name), "") + inherits:
             if not alike:
                 lines += [alike := [f"As in [{base}](#entries_{base.lower()})" + (", where an empty entry takes its value" if inherits else "") + ":"], ""]
-            alike.append(f"**{escaped(name)}**,")
+            alike.append(f"[{escaped(name)}](#{base.lower()}_{place}),")
             continue
-        place = re.sub(r"\W", "_", name.lower())
         lines += [f"### {escaped(name)} <a id=\"{anchor}_{place}\"></a>", "", escaped(comment), "", ". ".join(facts) + ".", ""]
     return "\n".join(line if isinstance(line, str) else " ".join(line)[:-1] + "." for line in lines).strip()
 
