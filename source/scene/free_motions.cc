@@ -75,13 +75,14 @@ std::string describe(const RigidMotion<3> &motion, const Point<3> &, const doubl
   return "rotation about an axis along " + to_string(Point<3>(motion[3], motion[4], motion[5]));
 }
 
-/** A basis of the rigid-body motions that satisfy all @p rows, conditions on their coefficients. */
-template <std::size_t n>
-std::vector<std::array<double, n>> motions_of(std::vector<std::array<double, n>> rows)
+/** A basis of the motions that satisfy all @p rows, conditions on their coefficients, of which @p rest has as many. */
+template <class Row>
+std::vector<Row> motions_of(std::vector<Row> rows, const Row &rest = Row())
 {
   // Gauss and Jordan: each column without pivot is a motion that earlier columns can balance.
+  const unsigned int n = rest.size();
   std::vector<unsigned int> pivots;
-  std::vector<std::array<double, n>> motions;
+  std::vector<Row> motions;
   for (unsigned int column = 0; column < n; ++column)
   {
     const unsigned int rank = pivots.size();
@@ -90,7 +91,7 @@ std::vector<std::array<double, n>> motions_of(std::vector<std::array<double, n>>
                                         { return std::abs(a[column]) < std::abs(b[column]); });
     if (pivot == rows.end() || std::abs((*pivot)[column]) < round_off)
     {
-      std::array<double, n> motion{};
+      Row motion = rest;
       motion[column] = 1;
       for (unsigned int k = 0; k < rank; ++k)
         motion[pivots[k]] = -rows[k][column] / rows[k][pivots[k]];
@@ -281,63 +282,95 @@ Rows<dim> checked_rows(const Scene<dim> &scene, const Point<dim> &centre, const 
   return rows;
 }
 
-/** What a pair asks of the motion of one of its bodies while the other stands: tied, or bilateral along its normal. */
-std::vector<RigidMotion<3>> rows_of_pair(const Scene<3> &scene, const ContactPair &pair,
-                                         const Point<3> &centre, const double length)
+/** Coefficients of the motions of all bodies, six of each. */
+using BodiesRow = std::vector<double>;
+
+/** What `direction . u` asks of the first body of a pair less the second; with one alone of that. */
+BodiesRow row_between(const unsigned int n_bodies, const std::vector<unsigned int> &bodies,
+                      const RigidMotion<3> &row)
 {
-  std::vector<RigidMotion<3>> rows;
+  BodiesRow result(6 * n_bodies);
+  for (unsigned int k = 0; k < bodies.size(); ++k)
+    for (unsigned int c = 0; c < 6; ++c)
+      result[6 * bodies[k] + c] = k == 0 ? row[c] : -row[c];
+  return result;
+}
+
+/** What one side of a pair adds: where it is tied all, where it is bilateral its normal, and what resists beside that. */
+void add_pair(const Scene<3> &scene, const ContactPair &pair, const Point<3> &centre,
+              const double length, std::vector<BodiesRow> &held, std::vector<BodiesRow> &resisted)
+{
   const BoundaryCondition<3> &part = scene.boundaries[pair.parts[0]];
-  if (!part.is_tied() && part.contact != Contact::bilateral)
-    return rows;
+  const std::vector<unsigned int> bodies{scene.geometry.body_of_side(pair.sides[0]),
+                                         scene.geometry.body_of_side(pair.sides[1])};
+  const unsigned int n = scene.geometry.bodies.size();
   for (const auto &[x, normal] : places_on(sides_of(scene)[part.id]))
   {
     const Tensor<1, 3> arm = (x - centre) / length;
-    rows.push_back(row_of(normal, arm));
-    if (part.is_tied())
-      for (const Tensor<1, 3> &tangent : contact_axes(normal).tangents)
-        rows.push_back(row_of(tangent, arm));
+    if (part.is_tied() || part.contact == Contact::bilateral)
+      held.push_back(row_between(n, bodies, row_of(normal, arm)));
+    for (const Tensor<1, 3> &tangent : contact_axes(normal).tangents)
+      if (part.is_tied() || part.friction)
+        (part.is_tied() ? held : resisted).push_back(row_between(n, bodies, row_of(tangent, arm)));
   }
-  return rows;
 }
 
-/** Of body @p b what holds it: supports, and pairs with bodies that are held. */
-std::vector<RigidMotion<3>> held_rows(const Scene<3> &scene, const unsigned int b,
-                                      const std::vector<bool> &is_held, const Point<3> &centre,
-                                      const double length)
+[[noreturn]] void reject_motion(const Scene<3> &scene, const BodiesRow &motion,
+                                const Point<3> &centre, const double length, const std::string &why)
 {
-  std::vector<RigidMotion<3>> rows = rows_of(scene, b, centre, length).held;
-  for (const ContactPair &pair : scene.pairs)
-    for (const unsigned int k : {0, 1})
-      if (scene.geometry.body_of_side(pair.sides[k]) == b &&
-          is_held[scene.geometry.body_of_side(pair.sides[1 - k])])
-      {
-        const std::vector<RigidMotion<3>> more = rows_of_pair(scene, pair, centre, length);
-        rows.insert(rows.end(), more.begin(), more.end());
-      }
-  return rows;
+  unsigned int moves = 0;
+  while (std::all_of(&motion[6 * moves], &motion[6 * moves] + 6,
+                     [](const double c) { return std::abs(c) < round_off; }))
+    ++moves;
+  RigidMotion<3> of_body;
+  std::copy_n(&motion[6 * moves], 6, of_body.begin());
+  throw InputError(printable(scene.origin(), 400) + ": Body " + scene.geometry.bodies[moves].name +
+                   ": its supports leave a rigid-body motion free, " +
+                   describe(of_body, centre, length) + ", and " + why +
+                   "; prescribe a displacement, set Symmetry, or tie it to a body that is held");
 }
 
-/** Bodies in space are held by supports, or by a law that cannot open to a body that is: one after the other. */
-void require_held_bodies(const Scene<3> &scene, const Point<3> &centre, const double length)
+/** Those of several bodies in space, which touch each other or a foundation; as coefficients. */
+std::vector<BodiesRow> motions_of_bodies_in_space(const Scene<3> &scene, const Point<3> &centre,
+                                                  const double length)
 {
   const unsigned int n = scene.geometry.bodies.size();
-  std::vector<bool> is_held(n, false);
-  for (bool is_changed = true; is_changed;)
-  {
-    is_changed = false;
-    for (unsigned int b = 0; b < n; ++b)
-      if (!is_held[b] && motions_of(held_rows(scene, b, is_held, centre, length)).empty())
-        is_held[b] = is_changed = true;
-  }
+  std::vector<BodiesRow> held, resisted;
   for (unsigned int b = 0; b < n; ++b)
-    if (!is_held[b])
-      throw InputError(
-          printable(scene.origin(), 400) + ": Body " + scene.geometry.bodies[b].name +
-          ": its supports leave a rigid-body motion free, " +
-          describe(motions_of(held_rows(scene, b, is_held, centre, length)).front(), centre,
-                   length) +
-          ", and in space contact that may open or slide holds no body of several; prescribe a "
-          "displacement, set Symmetry, or tie it to a body that is held");
+  {
+    const Rows<3> rows = rows_of(scene, b, centre, length);
+    for (const RigidMotion<3> &row : rows.held)
+      held.push_back(row_between(n, {b}, row));
+    for (const RigidMotion<3> &row : rows.resisted)
+      resisted.push_back(row_between(n, {b}, row));
+  }
+  for (const ContactPair &pair : scene.pairs)
+    add_pair(scene, pair, centre, length, held, resisted);
+  resisted.insert(resisted.end(), held.begin(), held.end());
+  const BodiesRow rest(6 * n);
+  const std::vector<BodiesRow> motions = motions_of(held, rest);
+  if (motions.size() > most_free_motions)
+    reject_motion(scene, motions.front(), centre, length,
+                  "contact alone holds " + std::to_string(most_free_motions) +
+                      " motions of all bodies at most, here they are " +
+                      std::to_string(motions.size()));
+  for (const BodiesRow &motion : motions)
+    for (unsigned int b = 0; b < n; ++b)
+    {
+      const bool moves = std::any_of(&motion[6 * b], &motion[6 * b] + 6,
+                                     [](const double c) { return std::abs(c) >= round_off; });
+      const bool touches = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
+                                       [&](const BoundaryCondition<3> &boundary) {
+                                         return boundary.has_contact() &&
+                                                scene.geometry.body_of_side(boundary.side) == b;
+                                       });
+      if (moves && !touches)
+        reject_motion(scene, motion, centre, length, "it touches nothing");
+    }
+  if (!motions.empty() && !scene.has_unilateral_contact())
+    if (const auto left = motions_of(resisted, rest); !left.empty())
+      reject_motion(scene, left.front(), centre, length, "no friction resists it");
+  return motions;
 }
 } // namespace
 
@@ -353,7 +386,7 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
   if constexpr (dim == 3)
     if (!geometry.bodies.empty())
     {
-      require_held_bodies(*this, centre, length);
+      motions_of_bodies_in_space(*this, centre, length);
       return {};
     }
   const Rows<dim> rows = checked_rows(*this, centre, length);
@@ -364,19 +397,24 @@ std::vector<RigidBodyMotion<dim>> Scene<dim>::free_motions() const
   return result;
 }
 
-std::vector<SpaceMotion> free_motions_in_space(const Scene<3> &scene)
+std::vector<BodyMotions> free_motions_in_space(const Scene<3> &scene)
 {
   const Point<3> centre = scene.geometry.centre();
   const double length = scene.geometry.radius();
-  std::vector<SpaceMotion> result;
+  std::vector<BodiesRow> motions;
   if (!scene.geometry.bodies.empty())
+    motions = motions_of_bodies_in_space(scene, centre, length);
+  else
+    for (const RigidMotion<3> &motion : motions_of(checked_rows(scene, centre, length).held))
+      motions.emplace_back(motion.begin(), motion.end());
+  std::vector<BodyMotions> result;
+  for (const BodiesRow &motion : motions)
   {
-    require_held_bodies(scene, centre, length);
-    return result;
+    result.emplace_back();
+    for (auto c = motion.begin(); c != motion.end(); c += 6)
+      result.back().push_back(
+          {Tensor<1, 3>({c[0], c[1], c[2]}), Tensor<1, 3>({c[3], c[4], c[5]}) / length, centre});
   }
-  for (const RigidMotion<3> &motion : motions_of(checked_rows(scene, centre, length).held))
-    result.push_back({Tensor<1, 3>({motion[0], motion[1], motion[2]}),
-                      Tensor<1, 3>({motion[3], motion[4], motion[5]}) / length, centre});
   return result;
 }
 

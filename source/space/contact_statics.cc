@@ -2,8 +2,9 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
+#include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/space/contact_statics.h>
-#include <hpvi/space/rigid_motions.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,17 @@ using namespace dealii;
 
 namespace
 {
+static_assert(most_free_motions <= most_equations, "each free motion is one equation");
 constexpr double negligible = 1e-9; ///< of the loads: cones are round, and met in the limit
+
+/** Of the first body less the second, if there is one. */
+Tensor<1, 3> jump(const BodyMotions &motion, const Point<3> &x, const TouchingBodies &bodies)
+{
+  Tensor<1, 3> result = motion[bodies[0]].at(x);
+  if (bodies[1] != no_body)
+    result -= motion[bodies[1]].at(x);
+  return result;
+}
 
 /** What the spots can resist with along @p motions. */
 class StaticAdmissibility : public ForceSet
@@ -24,7 +35,7 @@ class StaticAdmissibility : public ForceSet
 public:
   /** With @p is_rough nothing slides along the spots. */
   StaticAdmissibility(const std::vector<ContactSpot> &spots,
-                      const std::vector<SpaceMotion> &motions, bool is_rough = false);
+                      const std::vector<BodyMotions> &motions, bool is_rough = false);
 
   Extreme farthest(const Force &motion) const override;
 
@@ -63,7 +74,7 @@ private:
 };
 
 StaticAdmissibility::StaticAdmissibility(const std::vector<ContactSpot> &spots,
-                                         const std::vector<SpaceMotion> &motions,
+                                         const std::vector<BodyMotions> &motions,
                                          const bool is_rough)
     : spots(spots), n(motions.size()), is_rough(is_rough), rows(spots.size())
 {
@@ -72,7 +83,7 @@ StaticAdmissibility::StaticAdmissibility(const std::vector<ContactSpot> &spots,
     const auto tangents = contact_axes(spots[i].normal).tangents;
     for (unsigned int m = 0; m < n; ++m)
     {
-      const Tensor<1, 3> u = motions[m].at(spots[i].x);
+      const Tensor<1, 3> u = jump(motions[m], spots[i].x, spots[i].bodies);
       rows[i].normal[m] = u * spots[i].normal;
       for (unsigned int s = 0; s < 2; ++s)
         rows[i].tangents[s][m] = u * tangents[s];
@@ -157,7 +168,7 @@ Force StaticAdmissibility::without_lifting(Force motion) const
   return motion;
 }
 
-constexpr unsigned int n_numbers = 12;
+constexpr unsigned int n_numbers = 14;
 
 /** Those of all processes. */
 std::vector<ContactSpot> gathered(const std::vector<ContactSpot> &own, MPI_Comm communicator)
@@ -169,34 +180,44 @@ std::vector<ContactSpot> gathered(const std::vector<ContactSpot> &own, MPI_Comm 
       numbers.push_back(spot.x[d]);
     for (unsigned int d = 0; d < 3; ++d)
       numbers.push_back(spot.normal[d]);
-    for (const double number : {spot.limit.cohesion, spot.limit.coefficient, spot.limit.most,
-                                spot.area, double(spot.presses), double(spot.pulls)})
+    for (const double number :
+         {spot.limit.cohesion, spot.limit.coefficient, spot.limit.most, spot.area,
+          double(spot.presses), double(spot.pulls), double(spot.bodies[0]), double(spot.bodies[1])})
       numbers.push_back(number);
   }
   std::vector<ContactSpot> result;
   for (const auto &part : Utilities::MPI::all_gather(communicator, numbers))
     for (auto p = part.begin(); p != part.end(); p += n_numbers)
-      result.push_back({Point<3>(p[0], p[1], p[2]), Tensor<1, 3>({p[3], p[4], p[5]}),
-                        FrictionLimit{p[6], p[7], p[8]}, p[9], p[10] > 0, p[11] > 0});
+      result.push_back(
+          {Point<3>(p[0], p[1], p[2]), Tensor<1, 3>({p[3], p[4], p[5]}),
+           FrictionLimit{p[6], p[7], p[8]}, p[9], p[10] > 0, p[11] > 0,
+           TouchingBodies{{static_cast<unsigned int>(p[12]), static_cast<unsigned int>(p[13])}}});
   return result;
 }
 
-/** In the unknowns of this process. */
+/** Of each motion its values at nodes, and what it moves along contact. Collective. */
 std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
-                                           const std::vector<SpaceMotion> &motions)
+                                           const std::vector<BodyMotions> &motions)
 {
-  const std::vector<double> basis = rigid_motions(space);
-  const unsigned int n = space.owned.n_elements();
-  const double length = space.scene.geometry.radius();
-  std::vector<DistributedVector> result(motions.size(), space.owned_vector());
-  for (unsigned int j = 0; j < motions.size(); ++j)
-    for (unsigned int d = 0; d < 3; ++d) // rigid_motions() turns about z, x and y
-    {
-      const double turn = motions[j].rotation[(d + 2) % 3] * length;
-      for (unsigned int i = 0; i < n; ++i)
-        result[j].local_element(i) +=
-            motions[j].translation[d] * basis[d * n + i] + turn * basis[(3 + d) * n + i];
-    }
+  const FESystem<3> &fe = space.tables.fe;
+  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  std::vector<DistributedVector> result;
+  for (const BodyMotions &motion : motions)
+  {
+    DistributedVector u = space.ghosted_vector();
+    for (const auto &cell : space.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+      {
+        const SpaceMotion &own = motion[body_of<3>(space.scene.geometry, cell)];
+        const CellMap<3> map = map_of<3>(cell);
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
+          if (space.relevant.is_element(dofs[i]))
+            u(dofs[i]) =
+                own.at(map.point(fe.unit_support_point(i)))[fe.system_to_component_index(i).first];
+      }
+    result.push_back(space.in_contact_dofs(u));
+  }
   return result;
 }
 
@@ -237,6 +258,20 @@ ContactStatics::ContactStatics(const PrimalSpace<3> &space, const DistributedVec
   ends = gathered(own_ends, space.communicator());
 }
 
+TouchingBodies ContactStatics::bodies_at(const ContactDofFace<3> &face) const
+{
+  const Geometry<3> &geometry = space.scene.geometry;
+  const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
+  if (geometry.bodies.empty())
+    return {{0, no_body}};
+  TouchingBodies result{{geometry.body_of_side(boundary.side), no_body}};
+  if (boundary.pair)
+    for (const unsigned int side : space.scene.pairs[*boundary.pair].sides)
+      if (const unsigned int body = geometry.body_of_side(side); body != result[0])
+        result[1] = body;
+  return result;
+}
+
 std::vector<ContactSpot> ContactStatics::spots_of(const ContactDofFace<3> &face) const
 {
   const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
@@ -246,7 +281,8 @@ std::vector<ContactSpot> ContactStatics::spots_of(const ContactDofFace<3> &face)
     const ContactDof<3> &contact_dof = space.contact[face.first() + k];
     result.push_back({contact_dof.centroid, face.axes.normal,
                       face.has_friction() ? contact_dof.limit : FrictionLimit(), contact_dof.area,
-                      face.has_pressure(), face.has_pressure() && !boundary.is_unilateral()});
+                      face.has_pressure(), face.has_pressure() && !boundary.is_unilateral(),
+                      bodies_at(face)});
   }
   return result;
 }
@@ -261,19 +297,50 @@ std::vector<ContactSpot> ContactStatics::ends_of(const ContactDofFace<3> &face) 
     const Point<3> x = face.cell->face(face.face)->vertex(v);
     result.push_back({x, face.axes.normal,
                       boundary.friction ? boundary.friction.at(x) : FrictionLimit(), 0., true,
-                      !boundary.is_unilateral()});
+                      !boundary.is_unilateral(), bodies_at(face)});
   }
   return result;
 }
 
-SpaceMotion ContactStatics::sum(const Force &coefficients) const
+BodyMotions ContactStatics::sum(const Force &coefficients) const
 {
-  SpaceMotion result{{}, {}, motions[0].centre};
-  for (unsigned int j = 0; j < motions.size(); ++j)
-    result.add(coefficients[j], motions[j]);
-  // A rotation about a far axis is one more to read than a body that slides or lifts off.
-  if (result.rotation.norm() * space.scene.geometry.radius() < 0.01 * result.translation.norm())
-    result.rotation = 0;
+  BodyMotions result = motions[0];
+  for (unsigned int b = 0; b < result.size(); ++b)
+  {
+    result[b] = {{}, {}, result[b].centre};
+    for (unsigned int j = 0; j < motions.size(); ++j)
+      result[b].add(coefficients[j], motions[j][b]);
+    // A rotation about a far axis is one more to read than a body that slides or lifts off.
+    if (result[b].rotation.norm() * space.scene.geometry.radius() <
+        0.01 * result[b].translation.norm())
+      result[b].rotation = 0;
+  }
+  return result;
+}
+
+double ContactStatics::speed(const SpaceMotion &motion) const
+{
+  return motion.translation.norm() + motion.rotation.norm() * space.scene.geometry.radius();
+}
+
+/** The body that moves most; of equal ones the first. */
+unsigned int ContactStatics::first_of(const BodyMotions &motion) const
+{
+  return std::max_element(motion.begin(), motion.end(),
+                          [&](const SpaceMotion &a, const SpaceMotion &b)
+                          { return speed(a) < (1 - 1e-6) * speed(b); }) -
+         motion.begin();
+}
+
+/** Of those that move, that which moves most before the others. */
+std::string ContactStatics::names_of(const BodyMotions &motion, const unsigned int first) const
+{
+  if (motion.size() == 1)
+    return "the body";
+  std::string result = space.scene.geometry.bodies[first].name;
+  for (unsigned int b = 0; b < motion.size(); ++b)
+    if (b != first && speed(motion[b]) > 0.01 * speed(motion[first]))
+      result += ", " + space.scene.geometry.bodies[b].name;
   return result;
 }
 
@@ -281,15 +348,23 @@ std::string ContactStatics::in_words(const Force &motion, const double load,
                                      const std::string &what, const double resistance) const
 {
   const double way = load < 0 ? -1 : 1; // the one in which the loads push
-  const SpaceMotion moved = sum(way * motion);
+  const BodyMotions all = sum(way * motion);
+  const unsigned int first = first_of(all);
+  const SpaceMotion &moved = all[first];
   // Of unit length, or with a rotation by one, so that the numbers are forces or moments.
   const double unit = way * (moved.turns() ? moved.rotation.norm() : moved.translation.norm());
   std::ostringstream line;
   line.precision(10);
-  line << "the loads " << (moved.turns() ? "turn" : "push") << " the body " << moved.in_words()
-       << " with " << load / unit << ", contact " << what << " with "
+  line << "the loads " << (moved.turns() ? "turn" : "push") << ' ' << names_of(all, first) << ' '
+       << moved.in_words() << " with " << load / unit << ", contact " << what << " with "
        << (std::abs(resistance) <= 1e-9 * std::abs(load) ? 0. : resistance / unit);
   return line.str();
+}
+
+bool ContactStatics::turns(const Force &motion) const
+{
+  const BodyMotions all = sum(motion);
+  return all[first_of(all)].turns();
 }
 
 /**
@@ -301,7 +376,7 @@ std::string ContactStatics::why(const std::vector<ContactSpot> &spots,
 {
   const StaticAdmissibility rough(spots, motions, /*is_rough=*/true);
   if (const auto lifted = separate(rough, loads, negligible))
-    return (sum(lifted->motion).turns() ? "toppling: " : "lifting off: ") +
+    return (turns(lifted->motion) ? "toppling: " : "lifting off: ") +
            in_words(lifted->motion, lifted->load, "can resist", lifted->resistance);
   const Force sliding = rough.without_lifting(separation.motion),
               lifting = separation.motion - sliding;

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""space_bodies.py HPVI MPIRUN: two boxes in space whose meshes do not match. A uniform pressure passes from one to the other
-exactly, with hanging nodes, for all degrees and on one to three processes; layers between planes of symmetry are the runs of the
-plane; forces balance on each body; either may be the slave; on a stiff body the other one is as on a rigid floor."""
+"""space_bodies.py HPVI held|floating MPIRUN: boxes in space whose meshes do not match. Held by supports a uniform pressure
+passes from one to the other exactly, with hanging nodes, for all degrees and on one to three processes; forces balance on each
+body; either may be the slave; on a stiff body the other one is as on a rigid floor. Layers between planes of symmetry are the runs
+of the plane, held and held by contact alone; a stack of three has one energy by all solvers and on one to three processes, and
+what no contact holds is named."""
 import csv
 import json
 import pathlib
@@ -12,7 +14,7 @@ import tempfile
 
 from runs import PROGRAM as HPVI
 
-MPIRUN = sys.argv[1]  # runs.py has taken the program
+PART, MPIRUN = sys.argv[1:]  # runs.py has taken the program
 # A block with E = 10 on one with E = 20, both between planes of symmetry, pressed together by an interference of 0.01:
 # p = 0.01/(0.5/10 + 1/20) = 0.1.
 SCENE = """set Dimension = 3
@@ -70,10 +72,10 @@ subsection Material soft
   set Poisson's ratio = 0.25
 end
 subsection Boundary low.bottom
-  set Displacement = 0; 0{none}
+  {floor}
 end
 subsection Boundary high.top
-  set Displacement = 0.03; -0.02{none}
+  {load}
 end
 {symmetry}subsection Contact joint
   set Between = high.bottom, low.top
@@ -91,6 +93,49 @@ end
 """
 LAWS = ["set Friction bound = 0.055", "set Friction coefficient = 0.3", "set Law = tied",
         "set Law = bilateral", "set Gap = 0.01*(x - 1.5)^2\n  set Friction coefficient = 0.3"]
+HELD = {"floor": "set Displacement = 0; 0{none}", "load": "set Displacement = 0.03; -0.02{none}"}
+FLOATING = {"floor": "set Contact = unilateral\n  set Friction coefficient = 0.4", "load": "set Traction = 0.052; -0.2{none}"}
+# Three boxes under their weight and a push along the joints, of which the lowest is held.
+STACK = """set Dimension = 3
+subsection Body top
+  set Lower corner = 0.25, 1.5, 0.25
+  set Upper corner = 0.75, 2, 0.75
+end
+subsection Body middle
+  set Lower corner = 0, 1, 0
+  set Upper corner = 1, 1.5, 1
+  set Subdivisions = 4, 1, 4
+end
+subsection Body low
+  set Upper corner = 1, 1, 1
+  set Subdivisions = 3, 1, 3
+end
+subsection Material
+  set Young's modulus = 10
+  set Poisson's ratio = 0.3
+end
+subsection Boundary low.bottom
+  set Displacement = 0; 0; 0
+end
+subsection Body force
+  set Expression = 0.002; -0.01; 0.001
+end
+subsection Contact upper
+  set Between              = middle.top, top.bottom
+  set Friction coefficient = 0.5
+end
+subsection Contact lower
+  set Between              = low.top, middle.bottom
+  set Friction coefficient = 0.3
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+subsection Solver
+  set Primal tolerance = 1e-11
+end
+"""
 failures = 0
 
 
@@ -106,13 +151,17 @@ def rows(path):
         return list(csv.DictReader(file))
 
 
-def solve(directory, entries, processes=1, scene=SCENE):
-    """The contact points, the summary and the last row of the run."""
+def run(directory, entries, processes=1, scene=SCENE):
     start = [] if processes == 1 else [MPIRUN, "--oversubscribe", "--bind-to", "none", "-np", str(processes)]
     (directory / "blocks.prm").write_text(scene)
     overrides = [word for entry in entries for word in ("--set", entry)]
-    done = subprocess.run([*start, HPVI, "--output", str(directory / "out"), str(directory / "blocks.prm"), *overrides],
+    return subprocess.run([*start, HPVI, "--output", str(directory / "out"), str(directory / "blocks.prm"), *overrides],
                           capture_output=True, text=True)
+
+
+def solve(directory, entries, processes=1, scene=SCENE):
+    """The contact points, the summary and the last row of the run."""
+    done = run(directory, entries, processes, scene)
     if done.returncode != 0:
         sys.exit(f"{entries}: status {done.returncode}\n{done.stdout}{done.stderr}")
     out = directory / "out"
@@ -124,9 +173,8 @@ def largest(points, column, value):
     return max(abs(float(point[column]) - value) for point in points)
 
 
-with tempfile.TemporaryDirectory() as scratch:
-    scratch = pathlib.Path(scratch)
-    # A uniform pressure is exact to round-off, whichever body has it and however cells lie.
+def check_pressure(scratch):
+    """A uniform pressure is exact to round-off, whichever body has it and however cells lie."""
     for degree, extra, processes in ((2, GRADED, 1), (3, GRADED, 1), (4, [], 1), (2, GRADED, 2), (3, [], 3),
                                      (2, ["Contact joint/Slave=high.bottom"], 1), (2, ["Solver/Linear=amg"], 1),
                                      (2, ["Solver/Linear=direct", *GRADED], 2),
@@ -139,18 +187,10 @@ with tempfile.TemporaryDirectory() as scratch:
         expect(largest(points, "normal_traction", -0.1) < tolerance, name, largest(points, "normal_traction", -0.1))
         expect(float(row["estimate_relative"]) < 1e-9, name, "estimate", row["estimate_relative"])
         expect(summary["balance"]["force"] < 1e-11, name, summary["balance"])
-    # A layer has the energy per thickness of the plane, under all laws, with meshes that do not match.
-    for law in LAWS:
-        energies = []
-        for dim in (2, 3):
-            symmetry = "".join(f"subsection Boundary {body}.{side}\n  set Symmetry = true\nend\n"
-                               for body in ("low", "high") for side in ("front", "back"))
-            in_space = {"zero": ", 0", "depth": ", 0.5", "one": ", 1", "none": "; 0", "symmetry": symmetry, "tolerance": "set Primal tolerance = 1e-12"}
-            scene = LAYERED.format(dim=dim, lower=0, law=law, **(in_space if dim == 3 else dict.fromkeys(in_space, "")))
-            row = solve(scratch, [], scene=scene if dim == 3 else scene + "subsection Error\n  set Bound = false\nend\n")[2]
-            energies.append(float(row["lagrangian"]) / (0.5 if dim == 3 else 1))
-        expect(abs(energies[1] / energies[0] - 1) < 1e-8, law, energies)
-    # Friction: both bodies balance, forces are those of the other, and either may have the multipliers.
+
+
+def check_friction(scratch):
+    """Both bodies balance, forces are those of the other, and either may have the multipliers."""
     known = {}
     for slave in ("high.bottom", "low.top"):
         for law in ("Friction coefficient=0.3",):
@@ -164,7 +204,10 @@ with tempfile.TemporaryDirectory() as scratch:
             other = known.setdefault(law, forces["high.bottom"])
             for d in range(3):
                 expect(abs(other[d] - forces["high.bottom"][d]) < 2e-3 * max(map(abs, other)), slave, law, other, forces)
-    # A stiff body under the block is a rigid floor, up to 1/E.
+
+
+def check_stiffness(scratch):
+    """A stiff body under the block is a rigid floor, up to 1/E."""
     away = []
     for stiff in ("1e4", "1e5"):
         points, summary, row = solve(scratch, [*FRICTION, f"Material/Young's modulus={stiff}", "Contact joint/Friction bound=0.03",
@@ -173,4 +216,71 @@ with tempfile.TemporaryDirectory() as scratch:
     rigid = solve(scratch, [*FRICTION, "Material/Young's modulus=1e9", "Contact joint/Friction bound=0.03",
                             "Body low/Subdivisions=3, 1, 3", "Solver/Primal tolerance=1e-11"])[1]["forces"]["high.top"]["force"][0]
     expect(0.08 < (away[1] - rigid) / (away[0] - rigid) < 0.12, "stiff", away, rigid)
+
+
+def check_layers(scratch, held, laws):
+    """A layer has the energy per thickness of the plane, with meshes that do not match."""
+    for law in laws:
+        energies = []
+        for dim in (2, 3):
+            symmetry = "".join(f"subsection Boundary {body}.{side}\n  set Symmetry = true\nend\n"
+                               for body in ("low", "high") for side in ("front", "back"))
+            in_space = {"zero": ", 0", "depth": ", 0.5", "one": ", 1", "none": "; 0", "symmetry": symmetry, "tolerance": "set Primal tolerance = 1e-12"}
+            if dim == 2:
+                in_space = dict.fromkeys(in_space, "")
+            sides = {side: text.format(**in_space) for side, text in held.items()}
+            scene = LAYERED.format(dim=dim, lower=0, law=law, **sides, **in_space)
+            row = solve(scratch, [], scene=scene if dim == 3 else scene + "subsection Error\n  set Bound = false\nend\n")[2]
+            energies.append(float(row["lagrangian"]) / (0.5 if dim == 3 else 1))
+        expect(abs(energies[1] / energies[0] - 1) < 1e-8, law, energies)
+
+
+def check_stack(scratch):
+    """Contact alone holds two of three bodies: one energy, and both balance."""
+    known = None
+    for entries, processes in (([], 1), (["Solver/Linear=amg"], 1), (["Solver/Linear=direct"], 2), ([], 3)):
+        points, summary, row = solve(scratch, entries, processes, STACK)
+        known = known or float(row["lagrangian"])
+        expect(abs(float(row["lagrangian"]) / known - 1) < 1e-9, entries, processes, row["lagrangian"], known)
+        for side, volume in {"top.bottom": 0.125, "middle.bottom": 0.625}.items():
+            for found, force in zip(summary["forces"][side]["force"], (0.002, -0.01, 0.001)):
+                expect(abs(found + volume * force) < 1e-9 * volume, side, summary["forces"][side], volume)
+        expect(all(float(point["normal_traction"]) <= 1e-12 for point in points), "tension")
+    glued = solve(scratch, ["Contact upper/Law=tied", "Contact upper/Friction coefficient="], scene=STACK)[1]
+    expect(abs(glued["forces"]["top.bottom"]["force"][1] - 0.00125) < 1e-11, "glued", glued["forces"]["top.bottom"])
+
+
+def check_motions(scratch):
+    """What no contact holds is named, with both forces, or refused before."""
+    for entries, status, words in (
+            (["Contact lower/Friction coefficient=0.2"], 2,
+             "sliding: the loads push top, middle along (0.894427, 0, 0.447213) with 0.001397542486, contact can resist with 0.00125 at most"),
+            (["Contact upper/Friction coefficient=0.2"], 2,
+             "with 0.0002795084972, contact can resist with 0.00025 at most"),
+            (["Body force/Expression=0; 0.01; 0"], 2, "lifting off: the loads push top, middle along (0, 1, 0) with 0.00625"),
+            (["Body force/Expression=0.02; -0.01; 0"], 2, "toppling: the loads turn top"),
+            (["Contact upper/Law=bilateral", "Contact lower/Law=bilateral", "Contact upper/Friction coefficient=", "Contact lower/Friction coefficient="], 1,
+             "Body top: its supports leave a rigid-body motion free, translation in x, and no friction resists it; prescribe a displacement")):
+        done = run(scratch, entries, scene=STACK)
+        expect(done.returncode == status and words in done.stderr, entries, done.returncode, done.stderr)
+    alone = STACK.replace("""subsection Contact upper
+  set Between              = middle.top, top.bottom
+  set Friction coefficient = 0.5
+end
+""", "")
+    done = run(scratch, [], scene=alone)
+    expect(done.returncode == 1 and "Body top: its supports leave a rigid-body motion free, translation in x, and it touches nothing" in done.stderr, done.stderr)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    scratch = pathlib.Path(scratch)
+    if PART == "held":
+        check_pressure(scratch)
+        check_friction(scratch)
+        check_stiffness(scratch)
+    else:
+        check_layers(scratch, HELD, LAWS)
+        check_layers(scratch, FLOATING, [law for law in LAWS if "bilateral" not in law])
+        check_stack(scratch)
+        check_motions(scratch)
 sys.exit(failures > 0)

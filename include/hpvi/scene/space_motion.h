@@ -27,11 +27,16 @@ struct SpaceMotion
   void add(double factor, const SpaceMotion &other);
 };
 
+constexpr unsigned int most_free_motions = 24; ///< of all bodies together
+
+/** One of each body, with one centre; a single one where there are no several. */
+using BodyMotions = std::vector<SpaceMotion>;
+
 /**
- * A basis of the motions, up to six with one centre, that the supports of @p scene leave free: contact alone resists them.
+ * A basis of the motions, up to six of each body, that supports and ties of @p scene leave free: contact alone resists them.
  * Throws InputError where nothing does.
  */
-std::vector<SpaceMotion> free_motions_in_space(const Scene<3> &scene);
+std::vector<BodyMotions> free_motions_in_space(const Scene<3> &scene);
 
 /** Are there any? In the plane the primal path asks for supports. */
 template <int dim>

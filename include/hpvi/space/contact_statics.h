@@ -12,19 +12,20 @@
 
 namespace hpvi
 {
-/** A point at which contact acts on a rigid body. */
+/** A point at which contact acts on a rigid body, or between two. */
 struct ContactSpot
 {
   dealii::Point<3> x;
-  dealii::Tensor<1, 3> normal; ///< outer
-  FrictionLimit limit;         ///< of the friction, here
-  double area = 0;             ///< on which it acts without pressure
-  bool presses = false;        ///< with a pressure, at least 0;
-  bool pulls = false;          ///< or of any sign
+  dealii::Tensor<1, 3> normal;         ///< outer
+  FrictionLimit limit;                 ///< of the friction, here
+  double area = 0;                     ///< on which it acts without pressure
+  bool presses = false;                ///< with a pressure, at least 0;
+  bool pulls = false;                  ///< or of any sign
+  TouchingBodies bodies{{0, no_body}}; ///< the one whose normal it is, and what lies opposite
 };
 
 /**
- * Statics of a body in space that contact alone holds: its loads along the motions that its supports leave free, and what
+ * Statics of bodies in space that contact alone holds: their loads along the motions that supports leave free, and what
  * contact can balance, sums of pressures and of the friction that they allow. That the loads are among these is necessary
  * for an equilibrium, and where friction does not know the pressure sufficient.
  */
@@ -53,15 +54,20 @@ public:
   double imbalance(const std::vector<ContactVector<3>> &lambda, std::string &words) const;
 
 private:
+  TouchingBodies bodies_at(const ContactDofFace<3> &face) const;
   std::vector<ContactSpot> spots_of(const ContactDofFace<3> &face) const;
   std::vector<ContactSpot> ends_of(const ContactDofFace<3> &face) const;
-  SpaceMotion sum(const Force &coefficients) const;
+  BodyMotions sum(const Force &coefficients) const;
+  double speed(const SpaceMotion &motion) const;
+  unsigned int first_of(const BodyMotions &motion) const;
+  std::string names_of(const BodyMotions &motion, unsigned int first) const;
+  bool turns(const Force &motion) const;
   std::string in_words(const Force &motion, double load, const std::string &what,
                        double resistance) const;
   std::string why(const std::vector<ContactSpot> &spots, const Separation &separation) const;
 
   const PrimalSpace<3> &space;
-  const std::vector<SpaceMotion> motions; ///< independent, with one centre
+  const std::vector<BodyMotions> motions; ///< independent
   std::vector<DistributedVector> steps;   ///< the same in the unknowns
   Force loads;                            ///< along them; 0 where round-off is all there is
   std::vector<double> sizes;              ///< of the loads along each, without their signs
