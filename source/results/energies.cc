@@ -147,20 +147,22 @@ private:
     for (unsigned int r = 0; r < n; ++r)
       for (unsigned int q = 0; q < n; ++q)
       {
+        const Point<3> reference =
+            point_on_face<3>(face.face_no, Point<2>(corner[0] + width * gauss.point(q)[0],
+                                                    corner[1] + width * gauss.point(r)[0]));
+        const double bound = field.bound(face, reference);
+        if (bound == 0.)
+          continue;
         Tensor<1, 3> u;
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int i = 0; i < n; ++i)
             u += values[0][q * n + i] * values[1][r * n + j] * slip[j * n + i];
-        const Point<3> reference =
-            point_on_face<3>(face.face_no, Point<2>(corner[0] + width * gauss.point(q)[0],
-                                                    corner[1] + width * gauss.point(r)[0]));
         if (face.condition->pair) // what is opposite is no polynomial where its cells end
         {
           const FaceFrame<3> frame = face.frame(reference);
           u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
         }
-        sum += gauss.weight(q) * gauss.weight(r) * face.frame(reference).measure *
-               field.bound(face, reference) * u.norm();
+        sum += gauss.weight(q) * gauss.weight(r) * face.frame(reference).measure * bound * u.norm();
       }
     return width * width * sum;
   }

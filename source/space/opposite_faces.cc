@@ -445,6 +445,13 @@ void OppositeFaces::number_nodes(const IndexSet &owned, MPI_Comm communicator)
       communicator);
   of_unknowns = std::make_unique<const FarValues>(
       owned, std::vector<types::global_dof_index>(free.begin(), free.end()), communicator);
+  for (const MasterFace &master : masters)
+  {
+    maps.push_back(master.map());
+    places.emplace_back();
+    for (const OppositeNode &node : master.nodes)
+      places.back().push_back(of_nodes->place(node.first));
+  }
 }
 
 unsigned int OppositeFaces::nodal_place(const unsigned int node, const unsigned int component) const
@@ -481,8 +488,8 @@ OppositeFaces::Place OppositeFaces::place(const unsigned int face, const Point<3
     }
   }
   AssertThrow(nearest, ExcMessage("Nothing lies opposite to a face of a slave."));
-  const MasterFace &master = masters[nearest->master];
-  return {nearest->master, reference_on(master.map(), master.face, x, normal)};
+  const unsigned int master = nearest->master;
+  return {master, reference_on(maps[master], masters[master].face, x, normal)};
 }
 
 std::vector<OppositeFaces::PartPoint>
@@ -492,13 +499,12 @@ OppositeFaces::points_of(const Part &part, const ContactAxes<3> &axes, const uns
   ConvexPolygon polygon;
   for (const Point<3> &corner : part.corners)
     polygon.push_back(plane.at(corner));
-  const MasterFace &master = masters[part.master];
-  const CellMap<3> map = master.map();
   std::vector<PartPoint> result;
   for (const WeightedPoint &point : rule_on(polygon, n))
   {
     const Point<3> x = plane.point(point.x);
-    result.push_back({x, std::abs(point.weight), reference_on(map, master.face, x, axes.normal)});
+    result.push_back({x, std::abs(point.weight),
+                      reference_on(maps[part.master], masters[part.master].face, x, axes.normal)});
   }
   return result;
 }
@@ -506,15 +512,17 @@ OppositeFaces::points_of(const Part &part, const ContactAxes<3> &axes, const uns
 Tensor<1, 3> OppositeFaces::displacement(const Place &place,
                                          const std::vector<double> &values) const
 {
-  const MasterFace &master = masters[place.master];
-  const std::vector<unsigned int> shapes = shapes_on(tables, master.face);
+  const unsigned int face = masters[place.master].face;
   Tensor<1, 3> result;
-  for (unsigned int i = 0; i < shapes.size(); ++i)
-  {
-    const double phi = tables.fe.shape_value(tables.numbers[shapes[i]][0], place.reference);
-    for (unsigned int c = 0; c < 3; ++c)
-      result[c] += phi * values[of_nodes->place(master.nodes[i].first + c)];
-  }
+  unsigned int i = 0;
+  for (const auto *const shapes : {&tables.rim[face], &tables.inner[face]}) // the order of nodes
+    for (const unsigned int shape : *shapes)
+    {
+      const double phi = tables.fe.shape_value(tables.numbers[shape][0], place.reference);
+      for (unsigned int c = 0; c < 3; ++c)
+        result[c] += phi * values[places[place.master][i] + c];
+      ++i;
+    }
   return result;
 }
 } // namespace hpvi

@@ -146,6 +146,9 @@ private:
   void number_nodes(const dealii::IndexSet &owned, MPI_Comm communicator);
 
   std::vector<Opposite> faces;
+  std::vector<CellMap<3>> maps; ///< of #masters
+  std::vector<std::vector<unsigned int>>
+      places; ///< of the first component of their nodes in nodal()
   std::unique_ptr<const FarValues> of_nodes, of_unknowns;
 };
 } // namespace hpvi
