@@ -36,15 +36,15 @@ def folder(scene, output):
     return GALLERY if scene.resolve().parent == ROOT / "prm" else output
 
 
-def draw(scene, run, output, plot):
-    """Stress on the deformed body with its contact; in space beside it the states of the contact and its friction."""
+def draw(scene, run, output, plot, contacts):
+    """Stress on the deformed body with its contact; in space beside it the states of the first contact and its friction."""
     pyplot = plot.drawing_library()
     has_surface = run.dimension == 3 and bool(run.contact)
     with pyplot.rc_context(plot.STYLE):
         figure, places = pyplot.subplots(1, 1 + has_surface, figsize=(7.4, 4.1) if has_surface else (3.9, 4.1), layout="constrained", squeeze=False)
         plot.body(run, places[0][0])
         if has_surface:
-            plot.surface(run, places[0][1], what="state")
+            plot.surface(run, places[0][1], next(iter(contacts(run.contact))), what="state")
         figure.suptitle(scene.stem, fontsize=10)
         picture = folder(scene, output) / f"{scene.stem}.png"
         picture.parent.mkdir(parents=True, exist_ok=True)
@@ -69,7 +69,7 @@ def main():
     for scene in options.scenes or sorted((ROOT / "prm").glob("*.prm")):
         if not options.draw:
             solve(options.program.resolve(), scene, options.output)
-        draw(scene, results.Run(options.output / scene.stem), options.output, plot)
+        draw(scene, results.Run(options.output / scene.stem), options.output, plot, results.contacts)
 
 
 if __name__ == "__main__":

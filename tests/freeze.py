@@ -41,6 +41,8 @@ STEPS = ("Adaptivity/Maximum steps=3",)
 LESS = {"fretting-dome": ("Loading/Steps=3", "Adaptivity/Maximum unknowns=5000"), "lap-joint": ("Loading/Steps=10",),
         "fretting-pad": ("Loading/Steps=4", "Loading/Maximum cycles=2"), "rotating-load": ("Loading/Steps=4", "Loading/Maximum cycles=2"),
         "block-space": ("Adaptivity/Maximum unknowns=8000",), "dome": ("Adaptivity/Maximum unknowns=8000",),
+        "clamped-plates": ("Adaptivity/Maximum unknowns=8000",), "spheres": ("Adaptivity/Maximum unknowns=8000",),
+        "fretting-pad-space": ("Loading/Steps=3", "Adaptivity/Maximum unknowns=3000"),
         "foot": ("Adaptivity/Maximum unknowns=8000",)}
 # Name, options, scene, settings: what no scene of prm/ asks for by itself.
 RUNS = (

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from runs import PROGRAM as HPVI
+from runs import PROGRAM as HPVI, SCENES
 
 PART, MPIRUN = sys.argv[1:]  # runs.py has taken the program
 # A block with E = 10 on one with E = 20, both between planes of symmetry, pressed together by an interference of 0.01:
@@ -272,12 +272,24 @@ end
     expect(done.returncode == 1 and "Body top: its supports leave a rigid-body motion free, translation in x, and it touches nothing" in done.stderr, done.stderr)
 
 
+def check_shipped(scratch):
+    """Scenes of prm/ by statics, and by Hertz as far as their meshes and blocks go."""
+    scene = (SCENES / "clamped-plates.prm").read_text()
+    forces = solve(scratch, ["Adaptivity/Maximum unknowns=2000", "Solver/Primal tolerance=1e-11"], scene=scene)[1]["forces"]
+    for side, force in {"washer.bottom": (0, 10000, 0), "lower.left": (-2400, 0, 0)}.items():
+        expect(max(abs(a - b) for a, b in zip(forces[side]["force"], force)) < 1e-4, side, forces[side])
+    points = solve(scratch, ["Adaptivity/Maximum unknowns=30000"], scene=(SCENES / "spheres.prm").read_text())[0]
+    largest_pressure = -min(float(point["normal_traction"]) for point in points)
+    expect(abs(largest_pressure / 4354 - 1) < 0.02, "spheres", largest_pressure)
+
+
 with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)
     if PART == "held":
         check_pressure(scratch)
         check_friction(scratch)
         check_stiffness(scratch)
+        check_shipped(scratch)
     else:
         check_layers(scratch, HELD, LAWS)
         check_layers(scratch, FLOATING, [law for law in LAWS if "bilateral" not in law])
