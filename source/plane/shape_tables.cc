@@ -164,18 +164,27 @@ ShapeTables<dim>::subface(const unsigned int degree, const unsigned int face_no,
   return memoised(tables, {{degree, face_no, subface_no, n_gauss}}, make);
 }
 
+// A collection that is handed out never grows: another thread may be copying it. A longer one shares the elements of those before.
 template <int dim>
 const hp::FECollection<dim> &ShapeTables<dim>::elements(const unsigned int highest) const
 {
+  const hp::FECollection<dim> *longest = nullptr;
   {
     const ReadsMemoTables reading;
-    if (finite_elements.size() >= highest)
-      return finite_elements;
+    if (const auto found = finite_elements.lower_bound(highest); found != finite_elements.end())
+      return found->second;
+    if (!finite_elements.empty())
+      longest = &finite_elements.rbegin()->second;
   }
-  const WritesMemoTables writing;
-  while (finite_elements.size() < highest)
-    finite_elements.push_back(FESystem<dim>(FE_Q<dim>(finite_elements.size() + 1), dim));
-  return finite_elements;
+  return memoised(finite_elements, highest,
+                  [&]()
+                  {
+                    auto result =
+                        longest ? hp::FECollection<dim>(*longest) : hp::FECollection<dim>();
+                    while (result.size() < highest)
+                      result.push_back(FESystem<dim>(FE_Q<dim>(result.size() + 1), dim));
+                    return result;
+                  });
 }
 
 namespace
@@ -203,9 +212,7 @@ const LocalNumbering &ShapeTables<dim>::numbering(const unsigned int degree) con
 {
   const auto make = [&]()
   {
-    elements(degree);
-    const ReadsMemoTables reading; // of the collection, which may grow
-    const FiniteElement<dim> &fe = finite_elements[degree - 1];
+    const FiniteElement<dim> &fe = elements(degree)[degree - 1];
     LocalNumbering numbering;
     numbering.n_boundary = fe.n_dofs_per_cell() - fe.template n_dofs_per_object<dim>();
     for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)

@@ -201,6 +201,25 @@ TEST(Threads, DoNotMeet)
   }
 }
 
+/** A step copies the elements up to its highest degree while the bound of another one asks for more. */
+TEST(Threads, MakeElementsOfHigherDegreesBesideReaders)
+{
+  const ShapeTables<2> tables;
+  const hp::FECollection<2> &first = tables.elements(2);
+  const FiniteElement<2> *const quadratic = &first[1];
+  std::thread reader(
+      [&]
+      {
+        for (unsigned int k = 0; k < 2000; ++k)
+          EXPECT_EQ(hp::FECollection<2>(tables.elements(2))[1].degree, 2u);
+      });
+  for (unsigned int degree = 3; degree <= 9; ++degree)
+    EXPECT_EQ(tables.elements(degree).size(), degree);
+  reader.join();
+  EXPECT_EQ(first.size(), 2u);
+  EXPECT_EQ(&tables.elements(9)[1], quadratic) << "what is there is shared";
+}
+
 /** The parser is silent without touching a stream that other threads write to. */
 TEST(Threads, ReadWrongScenesTogether)
 {

@@ -123,7 +123,8 @@ private:
                                  bool second_derivatives) const;
 
   mutable std::map<std::array<unsigned int, 4>, ShapeTable<dim>> tables;
-  mutable dealii::hp::FECollection<dim> finite_elements;
+  mutable std::map<unsigned int, dealii::hp::FECollection<dim>>
+      finite_elements; ///< by the highest degree
   mutable std::map<unsigned int, LocalNumbering> numberings;
   mutable std::map<std::array<unsigned int, 4>, EdgeInterpolation> interpolations;
   mutable std::map<unsigned int, dealii::QGauss<1>> gauss_rules;
