@@ -14,9 +14,8 @@ import statistics
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figures import read_csv
 from stability import (COLOURS, ERROR_LABEL, N_LABEL, Laboratory, chart, number, plain, progress,
-                       put_table, save, write_csv)
+                       put_table, read_csv, save, write_csv)
 
 HERE = pathlib.Path(__file__).resolve().parent
 GALLERY = HERE / "bound"

@@ -15,8 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from contact import solved
-from figures import read_csv
-from stability import (COLOURS, ERROR_LABEL, Laboratory, chart, number, plain, progress, put_table,
+from stability import (COLOURS, ERROR_LABEL, Laboratory, chart, number, plain, progress, put_table, read_csv,
                        save, write_csv)
 
 HERE = pathlib.Path(__file__).resolve().parent

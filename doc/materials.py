@@ -14,8 +14,7 @@ import hpvi
 import matplotlib.pyplot as plt
 import numpy as np
 
-from figures import read_csv
-from stability import COLOURS, N_LABEL, number, plain, progress, put_table, save, write_csv
+from stability import COLOURS, N_LABEL, number, plain, progress, put_table, read_csv, save, write_csv
 
 PAGE = "materials"
 CHART = pathlib.Path(__file__).resolve().parent / PAGE / "chart.csv"

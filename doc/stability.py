@@ -172,12 +172,17 @@ def write_csv(path, rows):
         writer.writerows(rows)
 
 
-def put_table(name, rows, hidden=(), page="stability"):
-    """Replace the table between the marker comments of doc/PAGE.md, and write its CSV to doc/PAGE.
+def read_csv(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def put_table(name, rows, hidden=(), page="stability", folder=None):
+    """Replace the table between the marker comments of doc/PAGE.md, and write its CSV to doc/PAGE, or to doc/FOLDER.
 
     The page leaves out hidden columns, those of dashes alone, and exit statuses where all are 0.
     """
-    write_csv(HERE / page / f"{name}.csv", rows)
+    write_csv(HERE / (folder or page) / f"{name}.csv", rows)
     head = [c for c in rows[0] if c not in hidden and
             {str(r[c]) for r in rows} not in ([{"-"}, {"0"}] if c == "ended" else [{"-"}])]
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]

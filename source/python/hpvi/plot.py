@@ -24,6 +24,7 @@ ERRORS = {"error_bound_relative": ("guaranteed bound", BLUE, "o-"), "estimate_eq
 STYLE = {"font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "xtick.labelsize": 9, "ytick.labelsize": 9, "legend.fontsize": 9, "legend.frameon": False,
          "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "hpvi", "figure.facecolor": "white", "axes.axisbelow": True,
          "axes.formatter.useoffset": False}
+BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 3.9}  # a legend
 PER_CELL = 5  # points a direction and cell; quarters of edges tell which cells are neighbours
 # Bodies in space are seen from below, for there the contact is: where x, y and z lie on the paper.
 PAPER = np.array(((0.85, 0., 0.53), (-0.21, 0.92, 0.33)))
@@ -196,25 +197,15 @@ def draw_states(result, axes, scale):
     present = []
     for line in results.lines(result) if result.contact else []:
         u = motion(result, line)
-        sides = [(line.x, u)] + [side for side in [opposite(line, u)] if side]
-        for x, displacement in sides:
+        present += list(line["state"])
+        for x, displacement in [(line.x, u)] + [side for side in [opposite(line, u)] if side]:
             moved = x + scale * displacement
-            ends = np.concatenate([moved[:1], (moved[:-1] + moved[1:]) / 2, moved[-1:]])
-            for k, state in enumerate(line["state"]):
-                present.append(str(state))
-            for first, last, state in runs(line):
-                path = np.concatenate([moved[first:first + 1] if first in line.starts else ends[first:first + 1], moved[first:last],
-                                       moved[last - 1:last] if last in line.starts else ends[last:last + 1]])
+            for first, last, state in line.runs():
+                begin, end = line.ends(moved, first, last)
+                path = np.concatenate([[begin], moved[first:last], [end]])
                 axes.plot(*path.T, color="white", linewidth=5, zorder=3, solid_capstyle="butt", clip_on=False)
                 axes.plot(*path.T, color=STATES[state], linewidth=3, zorder=4, solid_capstyle="butt", clip_on=False, gid=f"state of {line.name}")
     return [state for state in STATES if state in present]
-
-
-def runs(line):
-    """(first, last + 1, state) of neighbours of one state in one piece."""
-    state = line["state"]
-    firsts = [k for k in range(len(state)) if k == 0 or k in line.starts or state[k] != state[k - 1]]
-    return [(first, last, str(state[first])) for first, last in zip(firsts, firsts[1:] + [len(state)])]
 
 
 def key_of_states(axes, present):
@@ -222,28 +213,33 @@ def key_of_states(axes, present):
         return
     from matplotlib.lines import Line2D
     handles = [Line2D([], [], color=STATES[state], linewidth=4, label=state) for state in present]
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=len(present), handlelength=1.2, frameon=False)
+    axes.legend(handles=handles, **BELOW, ncol=len(present), handlelength=1.2, frameon=False)
 
 
-def mesh(result, axes):
-    """The cells with their polynomial degrees as colours, and as digits where there is room."""
+def mesh(result, axes, is_moved=False, window=None):
+    """The cells with their polynomial degrees as colours, and as digits where there is room. is_moved: of the deformed body; window: ((x from, to),
+    (y from, to)) of what is shown."""
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import BoundaryNorm, ListedColormap
-    x, degrees = result.grid(PER_CELL)["x"], result.mesh.degrees
+    cells, degrees = result.grid(PER_CELL), result.mesh.degrees
+    scale = round_scale(cells["u"], cells["x"]) if is_moved else 0
+    x = cells["x"] + scale * cells["u"]
     loops = np.concatenate([x[:, 0, :-1], x[:, :-1, -1], x[:, -1, :0:-1], x[:, :0:-1, 0]], axis=1)
     levels = np.arange(degrees.min(), degrees.max() + 2)
     colours = ListedColormap([DEGREES[min(max(p, 1), 12) - 1] for p in levels[:-1]])
-    cells = PolyCollection(loops, array=degrees, cmap=colours, norm=BoundaryNorm(levels - 0.5, colours.N), edgecolors="#444444",
+    drawn = PolyCollection(loops, array=degrees, cmap=colours, norm=BoundaryNorm(levels - 0.5, colours.N), edgecolors="#444444",
                            linewidths=0.5 if len(x) < 400 else 0.15)
-    axes.add_collection(cells)
+    axes.add_collection(drawn)
     frame(axes, result, x)
+    if window:
+        axes.set(xlim=window[0], ylim=window[1])
     is_wide = np.ptp(axes.get_ylim()) < 0.7 * np.ptp(axes.get_xlim())
-    axes.figure.colorbar(cells, ax=axes, ticks=levels[:-1], label="polynomial degree", location="bottom" if is_wide else "right", aspect=25, shrink=0.8)
-    width = axes.figure.get_figwidth() * 72 * 0.8 / max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
+    axes.figure.colorbar(drawn, ax=axes, ticks=levels[:-1], label="polynomial degree", location="bottom" if is_wide else "right", aspect=25, shrink=0.8)
+    width = axes.get_position().width * axes.figure.get_figwidth() * 72 / max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
     for cell, p in zip(x, degrees):
         if width * min(np.ptp(cell[..., 0]), np.ptp(cell[..., 1])) > 11:
-            axes.text(*cell[PER_CELL // 2, PER_CELL // 2], str(p), ha="center", va="center", fontsize=8, color="black" if p < 6 else "white")
-    axes.set_title(f"mesh, {len(x)} cells")
+            axes.text(*cell[PER_CELL // 2, PER_CELL // 2], str(p), ha="center", va="center", fontsize=8, color="black" if p < 6 else "white", clip_on=True)
+    axes.set_title(f"mesh, {len(x)} cells" + (f", displacement {scale:g} times" if is_moved else ""))
     return ["the mesh of the last step with the polynomial degrees of its cells"]
 
 
@@ -327,7 +323,7 @@ def surface(result, axes, name=None, what="pressure"):
         if largest > 0:
             some = np.flatnonzero(np.hypot(*friction.T) > 0.02 * largest)[::max(1, len(x) // 150)]
             axes.quiver(place[0][some], place[1][some], *friction[some].T, width=0.004, color="#333333", scale=20 * largest)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=3, markerscale=2)
+        axes.legend(**BELOW, ncol=3, markerscale=2)
         axes.set_title(f"state; friction up to {largest:.2g} {result.stress_unit}".rstrip() if largest > 0 else "state")
     else:
         pressure = -columns["normal_traction"]
@@ -412,7 +408,7 @@ def finish(axes, title, result, columns=3):
     axes.set(xlabel=label("arc length", result.length_unit, "length"), ylabel=label("traction", result.stress_unit, "stress"))
     axes.set_title(title, pad=18 if axes.child_axes else 6)
     axes.locator_params(axis="x", nbins=6)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=columns, columnspacing=1.2, handlelength=1.8)
+    axes.legend(**BELOW, ncol=columns, columnspacing=1.2, handlelength=1.8)
 
 
 def cut(axes, line, values, window, unit):
@@ -505,7 +501,7 @@ def convergence(result, axes):
     axes.set(xlabel="load step" if is_history else "free unknowns", ylabel="error over the solution", title="convergence")
     axes.grid(True, which="major", linewidth=0.3)
     decades(axes, is_history)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=2)
+    axes.legend(**BELOW, ncol=2)
     return ["how the error falls from step to step, in the energy norm, over that of the solution" if not is_history
             else "the error at the end of each load step, in the energy norm, over that of the solution"]
 
@@ -529,7 +525,7 @@ def loop(result, axes, boundary, component):
     x, y = result.loading[f"displacement_{boundary}_{component}"], result.loading[f"force_{boundary}_{component}"]
     axes.plot(x, y, "o-", color=BLUE, markersize=3, linewidth=1)
     axes.plot(x[-1:], y[-1:], "o", color=ORANGE, markersize=6, label="end")
-    force = getattr(result, "force_unit", results.unit_of_load(result.stress_unit, result.length_unit, False))
+    force = results.unit_of_load(result.stress_unit, result.length_unit, False)
     axes.set(xlabel=label(f"$u_{component}$ of {boundary}", result.length_unit, "length"), ylabel=label(f"force {component} on {boundary}", force, "force"),
              title=f"force over displacement, {boundary}")
     axes.legend(loc="best")
@@ -551,17 +547,17 @@ def energies(result, axes):
     table = result.loading
     for column, words, colour, style in (("work", "work", BLACK, "-"), ("stored_energy", "stored", BLUE, "--"), ("dissipated_energy", "dissipated", ORANGE, ":")):
         axes.plot(table["load_step"], table[column], style, color=colour, label=words)
-    moment = getattr(result, "moment_unit", results.unit_of_load(result.stress_unit, result.length_unit, True))
+    moment = results.unit_of_load(result.stress_unit, result.length_unit, True)
     axes.set(xlabel="load step", ylabel=label("energy", moment, "energy"), title="energies")
     axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=3)
+    axes.legend(**BELOW, ncol=3)
     return ["work of the loads, and what became of it"]
 
 
 def cycles(result, axes):
     """What friction dissipates in each cycle."""
     axes.plot(result.cycles["cycle"], result.cycles["dissipated_energy"], "o-", color=ORANGE)
-    moment = getattr(result, "moment_unit", results.unit_of_load(result.stress_unit, result.length_unit, True))
+    moment = results.unit_of_load(result.stress_unit, result.length_unit, True)
     axes.set(xlabel="cycle", ylabel=label("dissipated energy", moment, "energy"), title="cycles")
     axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
     return ["what friction dissipates in each cycle"]
@@ -583,7 +579,7 @@ def load_steps(run, axes, name, what="pressure", most=6):
         room = 0.1 * (max(values) - min(values))
         axes.set_ylim(min(values) - room, max(values) + room)
     axes.set(xlabel=label("arc length", run.length_unit, "length"), ylabel=label(what, run.stress_unit, "stress"), title=f"{what}, {name}")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=6, title="at the end of load step", handlelength=1, columnspacing=1)
+    axes.legend(**BELOW, ncol=6, title="at the end of load step", handlelength=1, columnspacing=1)
     return [f"{what} of contact {name} at the ends of load steps"]
 
 
@@ -594,7 +590,7 @@ def history(result, axes, name, columns, words):
     for (column, what), style, colour in zip(columns.items(), ("-", "--", ":"), (BLACK, ORANGE, BLUE)):
         axes.plot(line.broken(line.s), line.broken(line[column]), style, color=colour, label=what)
     axes.set(xlabel=label("arc length", result.length_unit, "length"), ylabel=words, title=f"history, {name}")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=3)
+    axes.legend(**BELOW, ncol=3)
     return [f"contact {name} over its arc length, up to the end of the history"]
 
 
@@ -610,5 +606,5 @@ def probe(result, axes, name):
     moved, = second.plot(s, size, "--", color=BLUE, label="displacement")
     axes.set(xlabel=label("length along the probe", result.length_unit, "length"), ylabel=label("von Mises stress", result.stress_unit, "stress"), title=f"probe {name}")
     second.set_ylabel(label("displacement", result.length_unit, "length"))
-    axes.legend(handles=[stress, moved], loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, ncol=2)
+    axes.legend(handles=[stress, moved], **BELOW, ncol=2)
     return [f"along the probe {name}"]

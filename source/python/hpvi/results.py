@@ -179,19 +179,21 @@ class Line:
         """With NaN between pieces, so that no line joins them."""
         return np.insert(np.asarray(values, float), self.starts, math.nan)
 
+    def runs(self):
+        """(first, last + 1, state) of neighbours of one state in one piece."""
+        state = self["state"]
+        firsts = [k for k in range(len(state)) if k == 0 or k in self.starts or state[k] != state[k - 1]]
+        return [(first, last, str(state[first])) for first, last in zip(firsts, firsts[1:] + [len(state)])]
+
+    def ends(self, values, first, last):
+        """Of values (n, ...) at the points those at both ends of a run: halfway to the next run, or where the piece ends."""
+        pieces = {0, len(values), *self.starts}
+        return (values[first] if first in pieces else (values[first - 1] + values[first]) / 2,
+                values[last - 1] if last in pieces else (values[last - 1] + values[last]) / 2)
+
     def stretches(self):
-        """(state, begin, end) along s, as far as halfway to the next point; pieces end at their points."""
-        state, ends = self["state"], []
-        for k in range(len(state)):
-            if k == 0 or k in self.starts or state[k] != state[k - 1]:
-                is_new = k == 0 or k in self.starts
-                begin = self.s[k] if is_new else (self.s[k] + self.s[k - 1]) / 2
-                if ends:
-                    ends[-1][2] = self.s[k - 1] if is_new else begin
-                ends.append([str(state[k]), begin, self.s[k]])
-        if ends:
-            ends[-1][2] = self.s[-1]
-        return [tuple(one) for one in ends]
+        """(state, begin, end) along s."""
+        return [(state, *self.ends(self.s, first, last)) for first, last, state in self.runs()]
 
     def weights(self):
         """The length of each point [length]."""
