@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/text.h>
 #include <hpvi/base/tolerances.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
-#include <hpvi/output/plate_report.h>
 #include <hpvi/output/record.h>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ double force_scale(const Equilibrium<dim> &equilibrium, const ContactState<dim> 
                   std::abs(state.normal_resultant) + state.absolute_friction);
 }
 
-constexpr int digits = 6;
+constexpr int digits = shown_digits;
 
 /** As in "(0 7.6969)". */
 template <int dim>
@@ -64,12 +64,6 @@ std::string point_text(const Tensor<1, dim> &x)
   for (unsigned int d = 0; d < dim; ++d)
     list += (d > 0 ? " " : "") + text(x[d], digits);
   return "(" + list + ")";
-}
-
-/** A number with its unit, unless that is 1. */
-std::string labelled(const double value, const std::string &unit)
-{
-  return text(value, digits) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
 template <int dim>
@@ -124,14 +118,14 @@ std::string in_words(const std::string &name, const Scene<dim> &scene,
 {
   const bool is_pressure = stress.peak.boundary != numbers::invalid_boundary_id;
   return name + " is unbounded at " + point_text<dim>(stress.where) + ": " +
-         labelled(stress.peak.value, scene.stress_unit) + " in cells of " +
-         labelled(stress.peak.length, scene.length_unit) + ", more in smaller ones" +
-         (is_pressure ? "; the last " + labelled(stress.within, scene.length_unit) + " carry " +
+         with_unit(stress.peak.value, scene.stress_unit) + " in cells of " +
+         with_unit(stress.peak.length, scene.length_unit) + ", more in smaller ones" +
+         (is_pressure ? "; the last " + with_unit(stress.within, scene.length_unit) + " carry " +
                             text(stress.force, digits)
                       : "") +
-         "; up to " + labelled(stress.largest, scene.stress_unit) +
+         "; up to " + with_unit(stress.largest, scene.stress_unit) +
          (stress.largest > 0 ? " at " + point_text<dim>(stress.largest_point) : "") + " beyond " +
-         labelled(stress.beyond, scene.length_unit) + " from there";
+         with_unit(stress.beyond, scene.length_unit) + " from there";
 }
 
 /** In the plane a force has a line; in space in general none, but a moment. */
@@ -165,57 +159,20 @@ std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
   for (const StressSingularity<dim> &stress : unbounded)
     words += "\n  " + in_words("pressure", scene, stress);
   if (state.highest_pressure > 0 && unbounded.empty())
-    words += "\n  pressure up to " + labelled(state.highest_pressure, scene.stress_unit) + " at " +
+    words += "\n  pressure up to " + with_unit(state.highest_pressure, scene.stress_unit) + " at " +
              point_text<dim>(state.highest_pressure_point);
   for (const ContactZone<dim> &zone : state.zones)
     words += "\n  " + mode_name(zone.mode) + " from " + point_text<dim>(zone.begin) + " to " +
-             point_text<dim>(zone.end) + ", length " + labelled(zone.length, scene.length_unit);
+             point_text<dim>(zone.end) + ", length " + with_unit(zone.length, scene.length_unit);
   if constexpr (dim == 3)
-    words +=
-        "\n  open " + text(state.open_area, digits) + ", slip " +
-        text(state.slipping_area, digits) + " of " + text(state.area, digits) +
-        (scene.length_unit.empty() || scene.length_unit == "1" ? ""
-                                                               : " " + scene.length_unit + "^2");
+    words += "\n  open " + text(state.open_area, digits) + ", slip " +
+             text(state.slipping_area, digits) + " of " + text(state.area, digits) +
+             (unit_name(scene.length_unit).empty() ? "" : " " + scene.length_unit + "^2");
   if (state.deepest_penetration > 0)
     words += "\n  penetration between points up to " +
-             labelled(state.deepest_penetration, scene.length_unit) + " at " +
+             with_unit(state.deepest_penetration, scene.length_unit) + " at " +
              point_text<dim>(state.deepest_penetration_point);
   return words + "\n";
-}
-
-template <int dim>
-std::string json_zone(const ContactZone<dim> &zone)
-{
-  return "{\"state\": " + json_string(mode_name(zone.mode)) +
-         ", \"from\": " + json_point<dim>(zone.begin) + ", \"to\": " + json_point<dim>(zone.end) +
-         ", \"length\": " + json_value(zone.length) + "}";
-}
-
-/** "at" is null where the value is zero. */
-template <int dim>
-std::string json_extreme(const std::string &name, const double value, const Point<dim> &x)
-{
-  return ",\n      " + json_string(name) + ": " + json_value(value) + ", " +
-         json_string(name + "_at") + ": " + (value > 0 ? json_point<dim>(x) : "null");
-}
-
-/** As a list; von Mises' stress carries no force. */
-template <int dim>
-std::string json(const std::vector<StressSingularity<dim>> &unbounded)
-{
-  std::string list;
-  for (const StressSingularity<dim> &stress : unbounded)
-    list += (list.empty() ? "\n        " : ",\n        ") +
-            ("{\"at\": " + json_point<dim>(stress.where)) +
-            ", \"value\": " + json_value(stress.peak.value) +
-            (stress.peak.boundary == numbers::invalid_boundary_id
-                 ? ""
-                 : ", \"within\": " + json_value(stress.within) +
-                       ", \"force\": " + json_value(stress.force)) +
-            ", \"beyond\": " + json_value(stress.beyond) +
-            ", \"largest\": " + json_value(stress.largest) + ", \"largest_at\": " +
-            (stress.largest > 0 ? json_point<dim>(stress.largest_point) : "null") + "}";
-  return "[" + list + (list.empty() ? "]" : "\n      ]");
 }
 
 using hpvi::json_value;
@@ -225,61 +182,108 @@ std::string json_value(const Tensor<1, 3> &value)
   return json_point<3>(value);
 }
 
+/** A place is null where the value there is zero. */
+template <int dim>
+std::string json_place(const double value, const Point<dim> &x)
+{
+  return value > 0 ? json_point<dim>(x) : "null";
+}
+
+/** As a list; von Mises' stress carries no force. */
+template <int dim>
+std::string json(const std::vector<StressSingularity<dim>> &unbounded)
+{
+  std::vector<std::string> list;
+  for (const StressSingularity<dim> &stress : unbounded)
+  {
+    JsonMembers members{{"at", json_point<dim>(stress.where)},
+                        {"value", json_value(stress.peak.value)}};
+    if (stress.peak.boundary != numbers::invalid_boundary_id)
+      members.insert(members.end(),
+                     {{"within", json_value(stress.within)}, {"force", json_value(stress.force)}});
+    members.insert(members.end(),
+                   {{"beyond", json_value(stress.beyond)},
+                    {"largest", json_value(stress.largest)},
+                    {"largest_at", json_place<dim>(stress.largest, stress.largest_point)}});
+    list.push_back(json_members(members));
+  }
+  return json_list(list, 8);
+}
+
 /** In space a force has a moment in the place of a line. */
-std::string json_acting(const BoundaryForce<2> &force, const Equilibrium<2> &equilibrium,
-                        const ContactState<2> &state)
+std::pair<std::string, std::string> json_acting(const BoundaryForce<2> &force,
+                                                const Equilibrium<2> &equilibrium,
+                                                const ContactState<2> &state)
 {
   const auto line =
       line_of_action(force, equilibrium.centre, state, force_scale(equilibrium, state));
-  return ",\n      \"through\": " + (line ? json_point<2>(*line) : "null");
+  return {"through", line ? json_point<2>(*line) : "null"};
 }
 
-std::string json_acting(const BoundaryForce<3> &force, const Equilibrium<3> &,
-                        const ContactState<3> &)
+std::pair<std::string, std::string> json_acting(const BoundaryForce<3> &force,
+                                                const Equilibrium<3> &, const ContactState<3> &)
 {
-  return ",\n      \"moment\": " + json_value(force.moment);
-}
-
-/** In the plane alone: where its modes begin and end. */
-template <int dim>
-std::string json_zones(const ContactState<dim> &state)
-{
-  if (dim == 3)
-    return "";
-  std::string zones;
-  for (const ContactZone<dim> &zone : state.zones)
-    zones += (zones.empty() ? "\n        " : ",\n        ") + json_zone(zone);
-  return ",\n      \"length\": " + json_value(state.area) + ",\n      \"zones\": [" + zones +
-         "\n      ]";
+  return {"moment", json_value(force.moment)};
 }
 
 template <int dim>
-std::string json(const Scene<dim> &scene, const ContactState<dim> &state,
+std::string json(const ContactState<dim> &state, const BoundaryForce<dim> &force,
                  const Equilibrium<dim> &equilibrium,
                  const std::vector<StressSingularity<dim>> &unbounded)
 {
-  const BoundaryForce<dim> &force = force_of(equilibrium, scene.boundaries[state.boundary].name);
-  return json_string(force.boundary) + ": {\n      \"force\": " + json_point<dim>(force.force) +
-         json_acting(force, equilibrium, state) +
-         ",\n      \"normal_resultant\": " + json_value(state.normal_resultant) +
-         ",\n      \"friction_resultant\": " + json_value(state.friction_resultant) +
-         json_extreme("largest_pressure", state.highest_pressure, state.highest_pressure_point) +
-         ",\n      \"unbounded_pressure\": " + json(unbounded) +
-         json_extreme("largest_penetration", state.deepest_penetration,
-                      state.deepest_penetration_point) +
-         json_zones(state) + ",\n      \"area\": " + json_value(state.area) +
-         ",\n      \"open_area\": " + json_value(state.open_area) +
-         ",\n      \"slipping_area\": " + json_value(state.slipping_area) + "\n    }";
+  JsonMembers members{
+      {"force", json_point<dim>(force.force)},
+      json_acting(force, equilibrium, state),
+      {"normal_resultant", json_value(state.normal_resultant)},
+      {"friction_resultant", json_value(state.friction_resultant)},
+      {"largest_pressure", json_value(state.highest_pressure)},
+      {"largest_pressure_at", json_place(state.highest_pressure, state.highest_pressure_point)},
+      {"unbounded_pressure", json(unbounded)},
+      {"largest_penetration", json_value(state.deepest_penetration)},
+      {"largest_penetration_at",
+       json_place(state.deepest_penetration, state.deepest_penetration_point)}};
+  if (dim == 2) // where its modes begin and end
+  {
+    std::vector<std::string> zones;
+    for (const ContactZone<dim> &zone : state.zones)
+      zones.push_back(json_members({{"state", json_string(mode_name(zone.mode))},
+                                    {"from", json_point<dim>(zone.begin)},
+                                    {"to", json_point<dim>(zone.end)},
+                                    {"length", json_value(zone.length)}}));
+    members.emplace_back("length", json_value(state.area));
+    members.emplace_back("zones", json_list(zones, 8));
+  }
+  members.insert(members.end(), {{"area", json_value(state.area)},
+                                 {"open_area", json_value(state.open_area)},
+                                 {"slipping_area", json_value(state.slipping_area)}});
+  return json_members(members, 6);
+}
+
+/** How the rigid plate on @p boundary moves and turns, the end of a line; empty where there is none. */
+template <int dim>
+std::string plate_in_words(const Scene<dim> &scene, const std::string &boundary,
+                           const Equilibrium<dim> &equilibrium)
+{
+  for (const PlateState<dim> &plate : equilibrium.plates)
+    if (scene.boundaries[plate.boundary].name == boundary)
+    {
+      const std::string unit = unit_name(scene.length_unit);
+      return ", moves by " + to_string(Point<dim>(plate.displacement)) +
+             (unit.empty() ? "" : " " + unit) + " and turns by " +
+             text(plate.rotation + 0., 6) + // never -0
+             " rad at " + to_string(plate.centre);
+    }
+  return {};
 }
 } // namespace
 
 template <int dim>
 std::string json_point(const Tensor<1, dim> &x)
 {
-  std::string list;
+  std::vector<std::string> list;
   for (unsigned int d = 0; d < dim; ++d)
-    list += (d > 0 ? ", " : "") + json_value(x[d]);
-  return "[" + list + "]";
+    list.push_back(json_value(x[d]));
+  return json_list(list);
 }
 
 template <int dim>
@@ -332,11 +336,14 @@ std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState
                          const Equilibrium<dim> &equilibrium,
                          const std::vector<StressSingularity<dim>> &unbounded)
 {
-  std::string list;
+  JsonMembers members;
   for (const ContactState<dim> &state : contact)
-    list += (list.empty() ? "\n    " : ",\n    ") +
-            json(scene, state, equilibrium, on(state.slave, unbounded));
-  return "{" + list + (list.empty() ? "}" : "\n  }");
+  {
+    const std::string &name = scene.boundaries[state.boundary].name;
+    members.emplace_back(
+        name, json(state, force_of(equilibrium, name), equilibrium, on(state.slave, unbounded)));
+  }
+  return json_members(members, 4);
 }
 
 template <int dim>
@@ -346,41 +353,50 @@ std::string von_mises_json(const std::vector<StressSample<dim>> &extrema,
   const auto largest =
       std::find_if(extrema.begin(), extrema.end(),
                    [](const auto &peak) { return peak.boundary == numbers::invalid_boundary_id; });
-  return "{\n    \"largest\": " + json_value(largest->value) +
-         ",\n    \"at\": " + json_point<dim>(largest->where) +
-         ",\n    \"unbounded\": " + json(on(numbers::invalid_boundary_id, unbounded)) + "\n  }";
+  return json_members({{"largest", json_value(largest->value)},
+                       {"at", json_point<dim>(largest->where)},
+                       {"unbounded", json(on(numbers::invalid_boundary_id, unbounded))}},
+                      4);
 }
 
-namespace
-{
 template <int dim>
-std::string json_force(const BoundaryForce<dim> &force)
+std::string plates_json(const Scene<dim> &scene, const Equilibrium<dim> &equilibrium)
 {
-  return json_string(force.boundary) + ": {\"force\": " + json_point<dim>(force.force) +
-         ", \"moment\": " + json_value(force.moment) + "}";
+  JsonMembers members;
+  for (const PlateState<dim> &plate : equilibrium.plates)
+    members.emplace_back(scene.boundaries[plate.boundary].name,
+                         json_members({{"mean_point", json_point<dim>(plate.centre)},
+                                       {"displacement", json_point<dim>(plate.displacement)},
+                                       {"rotation", json_value(plate.rotation)},
+                                       {"moment", json_value(plate.moment)}}));
+  return json_members(members, 4);
 }
-} // namespace
 
 template <int dim>
 std::string forces_json(const Equilibrium<dim> &equilibrium)
 {
-  std::string forces = "{\n    " + json_force(equilibrium.loads);
-  for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
-    forces += ",\n    " + json_force(reaction);
-  return forces + "\n  }";
+  std::vector<BoundaryForce<dim>> forces = equilibrium.reactions;
+  forces.insert(forces.begin(), equilibrium.loads);
+  JsonMembers members;
+  for (const BoundaryForce<dim> &force : forces)
+    members.emplace_back(force.boundary, json_members({{"force", json_point<dim>(force.force)},
+                                                       {"moment", json_value(force.moment)}}));
+  return json_members(members, 4);
 }
 
 template <int dim>
 std::string balance_json(const Equilibrium<dim> &equilibrium)
 {
-  std::string all;
+  JsonMembers members{{"force", json_value(equilibrium.force_imbalance)},
+                      {"moment", json_value(equilibrium.moment_imbalance)},
+                      {"moments_about", json_point<dim>(equilibrium.centre)}},
+      bodies;
   for (const auto &[name, force, moment] : equilibrium.bodies)
-    all += (all.empty() ? ",\n    \"bodies\": {\n      " : ",\n      ") + json_string(name) +
-           ": {\"force\": " + json_value(force) + ", \"moment\": " + json_value(moment) + "}";
-  all += all.empty() ? "" : "\n    }";
-  return "{\n    \"force\": " + json_value(equilibrium.force_imbalance) +
-         ",\n    \"moment\": " + json_value(equilibrium.moment_imbalance) +
-         ",\n    \"moments_about\": " + json_point<dim>(equilibrium.centre) + all + "\n  }";
+    bodies.emplace_back(
+        name, json_members({{"force", json_value(force)}, {"moment", json_value(moment)}}));
+  if (!bodies.empty())
+    members.emplace_back("bodies", json_members(bodies, 6));
+  return json_members(members, 4);
 }
 
 std::string loads_in_words(const Scene<2> &scene)
@@ -404,13 +420,16 @@ std::string loads_json(const std::optional<LoadSum> &loads)
 {
   if (!loads)
     return "null";
-  return "{\n    \"force\": " + json_point<2>(loads->force) +
-         ",\n    \"moment\": " + json_value(loads->moment) +
-         ",\n    \"about\": " + json_point<2>(loads->centre) + "\n  }";
+  return json_members({{"force", json_point<2>(loads->force)},
+                       {"moment", json_value(loads->moment)},
+                       {"about", json_point<2>(loads->centre)}},
+                      4);
 }
 
 template std::string json_point(const Tensor<1, 2> &);
 template std::string json_point(const Tensor<1, 3> &);
+template std::string plates_json(const Scene<2> &, const Equilibrium<2> &);
+template std::string plates_json(const Scene<3> &, const Equilibrium<3> &);
 template std::string forces_json(const Equilibrium<2> &);
 template std::string balance_json(const Equilibrium<2> &);
 template std::string forces_json(const Equilibrium<3> &);

@@ -2,7 +2,6 @@
 #include <hpvi/base/file_format.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/output/complete_run.h>
 #include <hpvi/output/contact_line.h>
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/output.h>

@@ -61,14 +61,16 @@ std::string pretensions_in_words(const StepReport<dim> &step)
 template <int dim>
 std::string pretensions_json(const StepReport<dim> &step)
 {
-  std::string list;
+  JsonMembers members;
   for (const Pretension<dim> &cut : step.scene.pretensions)
     if (const Resultant<dim> *const row = row_of(cut, step))
-      list += (list.empty() ? "\n    " : ",\n    ") + json_string(cut.name) +
-              ": {\"force\": " + json_value(row->normal.best()) + ", \"force_bound\": " +
-              (row->normal.interval ? json_value(row->normal.interval->half_width) : "null") +
-              ", \"shortening\": " + json_value(cut.shortening) + "}";
-  return "{" + list + (list.empty() ? "}" : "\n  }");
+      members.emplace_back(
+          cut.name, json_members({{"force", json_value(row->normal.best())},
+                                  {"force_bound", row->normal.interval
+                                                      ? json_value(row->normal.interval->half_width)
+                                                      : "null"},
+                                  {"shortening", json_value(cut.shortening)}}));
+  return json_members(members, 4);
 }
 
 template std::string pretensions_in_words(const Scene<2> &);

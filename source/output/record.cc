@@ -171,19 +171,50 @@ std::string json_value(const Value &value)
                                                       : field;
 }
 
-std::string json_object(const Record &record)
+namespace
 {
+/** Items between what opens and closes their list. */
+std::string enclosed(const std::string &ends, const std::vector<std::string> &items,
+                     const unsigned int indent)
+{
+  const std::string line = indent == 0 ? "" : "\n" + std::string(indent, ' ');
   std::string list;
-  for (const auto &[name, value] : record)
-    list += (list.empty() ? "\n    " : ",\n    ") + json_string(name) + ": " + json_value(value);
-  return "{" + list + "\n  }";
+  for (const std::string &item : items)
+    list += (list.empty() ? line : indent == 0 ? ", " : "," + line) + item;
+  return ends[0] + list + (list.empty() || indent == 0 ? "" : "\n" + std::string(indent - 2, ' ')) +
+         ends[1];
+}
+} // namespace
+
+std::string json_list(const std::vector<std::string> &items, const unsigned int indent)
+{
+  return enclosed("[]", items, indent);
 }
 
-std::string json_file(const std::vector<std::pair<std::string, std::string>> &members)
+std::string json_members(const JsonMembers &members, const unsigned int indent)
 {
-  std::string list;
+  std::vector<std::string> items;
   for (const auto &[name, value] : members)
-    list += (list.empty() ? "\n  " : ",\n  ") + json_string(name) + ": " + value;
-  return "{" + list + "\n}\n";
+    items.push_back(json_string(name) + ": " + value);
+  return enclosed("{}", items, indent);
+}
+
+std::string json_strings(std::vector<std::string> words, const unsigned int indent)
+{
+  std::transform(words.begin(), words.end(), words.begin(), json_string);
+  return json_list(words, indent);
+}
+
+std::string json_object(const Record &record)
+{
+  JsonMembers members;
+  for (const auto &[name, value] : record)
+    members.emplace_back(name, json_value(value));
+  return json_members(members, 4);
+}
+
+std::string json_file(const JsonMembers &members)
+{
+  return json_members(members, 2) + "\n";
 }
 } // namespace hpvi

@@ -32,11 +32,18 @@ constexpr const char *partial_name = ".hpvi.tmp";
 /** Is this the name of a file that a run may leave? */
 bool is_result(const std::string &name)
 {
-  using namespace results;
-  static const std::regex pattern("(" + always + "|" + loading + "|" + contact + "|" + mesh + "|" +
-                                  vtu + "|" + pieces + "|" + contact_line + "|" + reference + "|" +
-                                  picture + "|" + probe + "|" + results::report + ")(\\.tmp)?");
+  namespace r = results;
+  static const std::regex pattern("(" + r::always + "|" + r::loading + "|" + r::contact + "|" +
+                                  r::mesh + "|" + r::vtu + "|" + r::pieces + "|" + r::contact_line +
+                                  "|" + r::reference + "|" + r::picture + "|" + r::probe + "|" +
+                                  r::report + "|" + r::pdf + ")(\\.tmp)?");
   return std::regex_match(name, pattern);
+}
+
+/** By another command. */
+bool tells_of_run(const std::string &name)
+{
+  return name == "report.html" || name == "report.pdf" || name == "scene.json";
 }
 
 std::set<std::string> results_in(const fs::path &directory, std::error_code &error)
@@ -56,13 +63,20 @@ struct EarlierRun
   std::string scene; ///< its file
 };
 
-/** Is it a picture, its data or a report that says that this program has made it? */
+/** Is it a picture, its data or a report that says that this program has made it? A PDF says so where it ends. */
 bool names_its_maker(const fs::path &file)
 {
   std::error_code ignored;
   std::string begin(40, '\0');
-  if (fs::is_regular_file(fs::symlink_status(file, ignored)))
-    std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  if (!fs::is_regular_file(fs::symlink_status(file, ignored)))
+    return false;
+  if (const std::string end = "% " + results::report_head + "\n"; file.extension() == ".pdf")
+  {
+    const std::string content = content_of(file);
+    return content.size() >= end.size() &&
+           content.compare(content.size() - end.size(), end.size(), end) == 0;
+  }
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
   return begin.rfind("<!-- " + results::picture_head, 0) == 0 ||
          begin.rfind("<!-- " + results::report_head, 0) == 0 ||
          begin.rfind(results::scene_head, 0) == 0;
@@ -215,7 +229,7 @@ ResultDirectory::ResultDirectory(const std::string &directory, const std::string
   for (const std::string &name : names)
   {
     const bool is_picture = std::regex_match(name, picture),
-               says_so = is_picture || name == "report.html" || name == "scene.json";
+               says_so = is_picture || tells_of_run(name);
     if (says_so && names_its_maker(path / name))
       own.add(name);
     else if (says_so)
@@ -310,8 +324,7 @@ std::vector<std::string> ResultDirectory::remove_after(const unsigned int step,
   {
     std::smatch match;
     const unsigned long number = std::regex_match(name, match, pattern) ? std::stoul(match[1]) : 0;
-    if (number > 0 ? !kept(number)
-                   : name == "reference.dat" || name == "report.html" || name == "scene.json")
+    if (number > 0 ? !kept(number) : name == "reference.dat" || tells_of_run(name))
       stale.insert(name);
     else if (number == step)
       of_step.push_back(name);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
-#include <hpvi/output/bound_words.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/pretension_report.h>
@@ -33,6 +32,42 @@ std::string interval_in_words(const Interval &interval)
 
 namespace
 {
+/** A number of few digits that is no less: what is guaranteed stays so. */
+std::string at_most(const double value)
+{
+  if (!(value > 0) || !std::isfinite(value))
+    return text(value, 2);
+  const double unit = std::pow(10., std::floor(std::log10(value)) - 1);
+  return text(unit * std::ceil(value / unit), 2);
+}
+
+/**
+ * What is known of the error, as in "at most 0.31 % of the solution, guaranteed". @p kind: text(BoundKind); @p size: of the error with its
+ * unit, as at_most() has it; @p coupling and @p zones as in ErrorBound. Never that a bound is one without the coupling that it needs.
+ */
+std::string error_in_words(const std::string &kind, const std::string &size, const double coupling,
+                           const std::string &zones)
+{
+  const std::string known =
+      "if the coupling is at most " + at_most(coupling) + " (estimated; it must be below 2)";
+  if (kind == "coupling")
+    return "at most " + size + " for every solution of Coulomb's law, bounded " + known;
+  if (kind == "zones")
+    return "at most " + size + " if " + zones + ", and " + known;
+  if (kind == "estimate")
+    return "about " + size + ", estimated";
+  return "at most " + size + ", guaranteed";
+}
+
+/** What an interval rests on, as in "guaranteed" or "bounded, coupling at most 1.4". @p kind and @p coupling likewise. */
+std::string terms_in_words(const std::string &kind, const double coupling)
+{
+  if (kind == "coupling")
+    return "bounded, coupling at most " + at_most(coupling);
+  if (kind == "zones")
+    return "if zones are as said, coupling at most " + at_most(coupling);
+  return "guaranteed";
+}
 /** With what it rests on, of a step that has a bound. */
 template <int dim>
 std::string interval_of(const StepReport<dim> &step, const Interval &interval)
@@ -151,9 +186,9 @@ template <int dim>
 std::string largest_displacement_json(const StepReport<dim> &step)
 {
   const PlacedValue<dim> &largest = step.largest_displacement;
-  return "{\n    \"value\": " + json_value(largest.value) +
-         ",\n    \"at\": " + (largest.value > 0 ? json_point<dim>(largest.where) : "null") +
-         "\n  }";
+  return json_members({{"value", json_value(largest.value)},
+                       {"at", largest.value > 0 ? json_point<dim>(largest.where) : "null"}},
+                      4);
 }
 
 template std::string results_in_words(const StepReport<2> &);

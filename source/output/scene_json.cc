@@ -3,11 +3,10 @@
 #include <hpvi/base/text.h>
 #include <hpvi/base/version.h>
 #include <hpvi/output/boundary_words.h>
-#include <hpvi/output/cell_outline.h>
-#include <hpvi/output/outline_part.h>
 #include <hpvi/output/record.h>
 #include <hpvi/output/scene_json.h>
 #include <hpvi/output/scene_words.h>
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/mesh.h>
 #include <hpvi/reader/bodies_reader.h>
 #include <hpvi/reader/pretension_reader.h>
@@ -28,32 +27,6 @@ using namespace dealii;
 
 namespace
 {
-using Members = std::vector<std::pair<std::string, std::string>>;
-
-std::string list(const std::vector<std::string> &items, const std::string &between = ", ")
-{
-  std::string joined;
-  for (const std::string &item : items)
-    joined += (joined.empty() ? "" : between) + item;
-  return "[" + joined + "]";
-}
-
-std::string object(const Members &members)
-{
-  std::string joined;
-  for (const auto &[name, value] : members)
-    joined += (joined.empty() ? "" : ", ") + json_string(name) + ": " + value;
-  return "{" + joined + "}";
-}
-
-std::string strings(const std::vector<std::string> &words)
-{
-  std::vector<std::string> items;
-  for (const std::string &one : words)
-    items.push_back(json_string(one));
-  return list(items);
-}
-
 std::string boolean(const bool value)
 {
   return value ? "true" : "false";
@@ -75,7 +48,7 @@ std::string points(const std::vector<Point<2>> &some)
   std::vector<std::string> items;
   for (const Point<2> &x : some)
     items.push_back(vector(x));
-  return list(items);
+  return json_list(items);
 }
 
 std::vector<std::string> lines_of(const std::string &text)
@@ -144,6 +117,32 @@ std::vector<std::string> changed_entries(const std::string &scene_prm, const int
 
 // ---------------------------------------------------------------- the body
 
+/** Along a face, its first vertex to its second: both, @p n - 1 points between them, and of what is curved enough to look smooth. */
+std::vector<Point<2>> face_line(const CellMap<2> &map, const unsigned int face, unsigned int n = 1)
+{
+  n = std::max(n, map.is_curved() && map.blends()[face] ? 16U : 1U);
+  std::vector<Point<2>> line;
+  for (unsigned int k = 0; k <= n; ++k) // the ends exactly: there an expression may jump
+    line.push_back(k == 0 || k == n
+                       ? map.vertices()[GeometryInfo<2>::face_to_cell_vertices(face, k / n)]
+                       : map.point(point_on_face<2>(face, Point<1>(double(k) / n))));
+  return line;
+}
+
+/** Around the cell counterclockwise, each point once. */
+std::vector<Point<2>> cell_outline(const CellMap<2> &map)
+{
+  std::vector<Point<2>> outline;
+  for (const unsigned int face : {2, 1, 3, 0})
+  {
+    std::vector<Point<2>> line = face_line(map, face);
+    if (face == 3 || face == 0)
+      line = {line.rbegin(), line.rend()};
+    outline.insert(outline.end(), line.begin(), line.end() - 1);
+  }
+  return outline;
+}
+
 std::string cells_json(const Scene<2> &scene, const Triangulation<2> &mesh)
 {
   std::vector<std::string> cells;
@@ -151,11 +150,11 @@ std::string cells_json(const Scene<2> &scene, const Triangulation<2> &mesh)
   {
     const std::optional<Orthotropy> &own = scene.material_of(cell).orthotropy;
     cells.push_back(
-        object({{"material", std::to_string(material_beside(scene, cell->material_id()))},
-                {"angle", own ? number_text(own->angle) : "null"},
-                {"outline", points(cell_outline(map_of<2>(cell)))}}));
+        json_members({{"material", std::to_string(material_beside(scene, cell->material_id()))},
+                      {"angle", own ? number_text(own->angle) : "null"},
+                      {"outline", points(cell_outline(map_of<2>(cell)))}}));
   }
-  return list(cells, ",\n    ");
+  return json_list(cells, 4);
 }
 
 std::string materials_json(const Scene<2> &scene, const Triangulation<2> &mesh)
@@ -163,56 +162,65 @@ std::string materials_json(const Scene<2> &scene, const Triangulation<2> &mesh)
   std::vector<std::string> materials;
   for (const std::size_t k : materials_of(scene, mesh))
     materials.push_back(
-        object({{"number", std::to_string(k)},
-                {"name", json_string(name_in_words(scene, k))},
-                {"words", json_string(material_in_words(scene, scene.materials[k]))}}));
-  return list(materials, ",\n    ");
+        json_members({{"number", std::to_string(k)},
+                      {"name", json_string(name_in_words(scene, k))},
+                      {"words", json_string(material_in_words(scene, scene.materials[k]))}}));
+  return json_list(materials, 4);
 }
 
 // ---------------------------------------------------------------- boundaries
 
-/** Places along a part: so many that nothing narrow is missed where something varies, else what its outline has. */
-std::vector<Point<2>> places_on(const OutlinePart &part, const bool varies)
+/** Of each edge with this condition places along it, the body on the left: where something varies so many that nothing narrow is missed. */
+std::vector<std::vector<Point<2>>> edges_of(const BoundaryCondition<2> &condition,
+                                            const Triangulation<2> &mesh, const bool varies)
 {
-  constexpr unsigned int n = 400;
-  if (!varies)
-    return part.points();
-  std::vector<Point<2>> places;
-  for (unsigned int k = 0; k <= n; ++k)
-    places.push_back(part.at(part.length() * k / n).x);
-  return places;
+  std::vector<std::pair<Triangulation<2>::active_cell_iterator, unsigned int>> faces;
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face) && cell->face(face)->boundary_id() == condition.id)
+        faces.emplace_back(cell, face);
+  std::vector<std::vector<Point<2>>> edges;
+  for (const auto &[cell, face] : faces)
+  {
+    std::vector<Point<2>> line =
+        face_line(map_of<2>(cell), face, varies ? 1 + 400 / faces.size() : 1);
+    if (cross_product_2d(line.back() - line.front()) * (cell->center() - line.front()) > 0)
+      line = {line.rbegin(), line.rend()};
+    edges.push_back(line);
+  }
+  return edges;
 }
 
-/** The components of a vector at places; null where it has none, or is 0 everywhere. */
+/** The components of a vector at places; null where it has none. */
 template <class Components>
 std::string vectors(const Components &components, const std::vector<Point<2>> &places)
 {
-  bool is_zero = true;
+  if (!components[0] && !components[1])
+    return "null";
   std::vector<std::string> values;
   for (const Point<2> &x : places)
-  {
-    Tensor<1, 2> value;
-    for (unsigned int c = 0; c < 2; ++c)
-      value[c] = components[c] ? components[c]->value(x) : 0.;
-    is_zero = is_zero && value.norm() == 0;
-    values.push_back(vector(value));
-  }
-  return is_zero ? "null" : list(values);
+    values.push_back(vector(Tensor<1, 2>({components[0] ? components[0]->value(x) : 0.,
+                                          components[1] ? components[1]->value(x) : 0.})));
+  return json_list(values);
 }
 
-std::string part_json(const BoundaryCondition<2> &condition, const OutlinePart &part)
+std::string edges_json(const BoundaryCondition<2> &condition, const Triangulation<2> &mesh)
 {
   const bool is_gap = condition.is_unilateral() && !condition.pair,
              varies = condition.has_displacement() || condition.has_traction() || is_gap;
-  const std::vector<Point<2>> places = places_on(part, varies);
-  std::vector<std::string> gaps;
-  for (const Point<2> &x : places)
-    if (is_gap)
-      gaps.push_back(number_text(condition.gap_at(x)));
-  return object({{"x", points(places)},
-                 {"gap", is_gap ? list(gaps) : "null"},
-                 {"traction", vectors(condition.traction, places)},
-                 {"displacement", vectors(condition.displacement, places)}});
+  std::vector<std::string> edges;
+  for (const std::vector<Point<2>> &places : edges_of(condition, mesh, varies))
+  {
+    std::vector<std::string> gaps;
+    for (const Point<2> &x : places)
+      if (is_gap)
+        gaps.push_back(number_text(condition.gap_at(x)));
+    edges.push_back(json_members({{"x", points(places)},
+                                  {"gap", is_gap ? json_list(gaps) : "null"},
+                                  {"traction", vectors(condition.traction, places)},
+                                  {"displacement", vectors(condition.displacement, places)}}));
+  }
+  return json_list(edges, 6);
 }
 
 std::string contact_name(const BoundaryCondition<2> &condition)
@@ -227,8 +235,8 @@ std::string contact_name(const BoundaryCondition<2> &condition)
 
 std::string plate_json(const std::optional<RigidPlate<2>> &plate)
 {
-  return plate ? object({{"force", vector(Tensor<1, 2>({plate->force[0], plate->force[1]}))},
-                         {"moment", number_text(plate->force[2])}})
+  return plate ? json_members({{"force", vector(Tensor<1, 2>({plate->force[0], plate->force[1]}))},
+                               {"moment", number_text(plate->force[2])}})
                : "null";
 }
 
@@ -242,41 +250,36 @@ std::string curves_of(const Scene<2> &scene, const std::string &name)
 }
 
 std::string boundary_json(const Scene<2> &scene, const Triangulation<2> &mesh,
-                          const BoundaryCondition<2> &condition,
-                          const std::vector<OutlinePart> &parts)
+                          const BoundaryCondition<2> &condition)
 {
   const std::vector<Point<2>> sample = points_on(mesh, condition.id);
-  std::vector<std::string> own;
-  for (const OutlinePart &part : parts)
-    if (part.boundary == condition.id)
-      own.push_back(part_json(condition, part));
   const auto &d = condition.contact_direction;
   const bool speaks = !condition.pair || scene.pairs[*condition.pair].parts[0] == condition.id;
-  return object({{"name", json_string(condition.name)},
-                 {"curves", json_string(curves_of(scene, condition.name))},
-                 {"supports", strings(support_phrases(scene, condition, sample))},
-                 {"contacts", speaks ? strings(contact_phrases(scene, condition, sample)) : "[]"},
-                 {"loads", strings(traction_phrases(scene, condition, sample))},
-                 {"held", list({boolean(bool(condition.displacement[0])),
-                                boolean(bool(condition.displacement[1]))})},
-                 {"symmetry", boolean(condition.symmetry)},
-                 {"spring", boolean(bool(condition.spring))},
-                 {"plate", plate_json(condition.plate)},
-                 {"contact", contact_name(condition)},
-                 {"pair", condition.pair ? json_string(condition.pair_name) : "null"},
-                 {"direction", d ? vector(*d) : "null"},
-                 {"parts", list(own, ",\n      ")}});
+  return json_members(
+      {{"name", json_string(condition.name)},
+       {"curves", json_string(curves_of(scene, condition.name))},
+       {"supports", json_strings(support_phrases(scene, condition, sample))},
+       {"contacts", speaks ? json_strings(contact_phrases(scene, condition, sample)) : "[]"},
+       {"loads", json_strings(traction_phrases(scene, condition, sample))},
+       {"held", json_list({boolean(bool(condition.displacement[0])),
+                           boolean(bool(condition.displacement[1]))})},
+       {"symmetry", boolean(condition.symmetry)},
+       {"spring", boolean(bool(condition.spring))},
+       {"plate", plate_json(condition.plate)},
+       {"contact", contact_name(condition)},
+       {"pair", condition.pair ? json_string(condition.pair_name) : "null"},
+       {"direction", d ? vector(*d) : "null"},
+       {"edges", edges_json(condition, mesh)}});
 }
 
 std::string boundaries_json(const Scene<2> &scene, const Triangulation<2> &mesh)
 {
-  const std::vector<OutlinePart> parts = boundary_parts(mesh);
+  const std::vector<types::boundary_id> present = mesh.get_boundary_ids();
   std::vector<std::string> boundaries;
   for (const BoundaryCondition<2> &condition : scene.boundaries)
-    if (std::any_of(parts.begin(), parts.end(),
-                    [&](const OutlinePart &part) { return part.boundary == condition.id; }))
-      boundaries.push_back(boundary_json(scene, mesh, condition, parts));
-  return list(boundaries, ",\n    ");
+    if (std::count(present.begin(), present.end(), condition.id) > 0)
+      boundaries.push_back(boundary_json(scene, mesh, condition));
+  return json_list(boundaries, 4);
 }
 
 // ---------------------------------------------------------------- the rest
@@ -301,7 +304,7 @@ std::string body_force_json(const Scene<2> &scene, const Triangulation<2> &mesh)
     area += cell->measure();
     sizes.push_back(force.norm());
   }
-  return object(
+  return json_members(
       {{"mean", vector(mean / area)},
        {"centre", vector(centre / area)},
        {"words", json_string("body force " + range_in_words(sizes, body_force_unit(scene)))}});
@@ -312,12 +315,12 @@ std::string pretensions_json(const Scene<2> &scene)
   std::vector<std::string> cuts;
   const std::string unit = force_unit(scene.stress_unit, scene.length_unit);
   for (const Pretension<2> &cut : scene.pretensions)
-    cuts.push_back(object({{"name", json_string(cut.name)},
-                           {"from", vector(cut.from)},
-                           {"to", vector(cut.to)},
-                           {"normal", vector(cut.normal)},
-                           {"words", json_string("F = " + with_unit(cut.force, unit))}}));
-  return list(cuts);
+    cuts.push_back(json_members({{"name", json_string(cut.name)},
+                                 {"from", vector(cut.from)},
+                                 {"to", vector(cut.to)},
+                                 {"normal", vector(cut.normal)},
+                                 {"words", json_string("F = " + with_unit(cut.force, unit))}}));
+  return json_list(cuts);
 }
 
 std::string probes_json(const Scene<2> &scene)
@@ -329,18 +332,19 @@ std::string probes_json(const Scene<2> &scene)
     std::vector<std::string> on;
     for (const types::boundary_id id : probe.on)
       on.push_back(scene.boundaries[id].name);
-    probes.push_back(object({{"name", json_string(probe.name)},
-                             {"kind", json_string(kinds[static_cast<unsigned int>(probe.kind)])},
-                             {"at", vector(probe.at)},
-                             {"size", number_text(probe.size)},
-                             {"from", vector(probe.from)},
-                             {"to", vector(probe.to)},
-                             {"on", strings(on)}}));
+    probes.push_back(
+        json_members({{"name", json_string(probe.name)},
+                      {"kind", json_string(kinds[static_cast<unsigned int>(probe.kind)])},
+                      {"at", vector(probe.at)},
+                      {"size", number_text(probe.size)},
+                      {"from", vector(probe.from)},
+                      {"to", vector(probe.to)},
+                      {"on", json_strings(on)}}));
   }
-  return list(probes);
+  return json_list(probes);
 }
 
-Members drawn_members(const Scene<2> &scene)
+JsonMembers drawn_members(const Scene<2> &scene)
 {
   Triangulation<2> mesh;
   make_mesh(scene, mesh);
@@ -350,7 +354,7 @@ Members drawn_members(const Scene<2> &scene)
       {"pretensions", pretensions_json(scene)},     {"probes", probes_json(scene)}};
 }
 
-Members drawn_members(const Scene<3> &) // which ParaView shows
+JsonMembers drawn_members(const Scene<3> &) // which ParaView shows
 {
   return {};
 }
@@ -360,16 +364,16 @@ template <int dim>
 std::string scene_json(const Scene<dim> &scene)
 {
   const std::string &length = scene.length_unit, &stress = scene.stress_unit;
-  Members members = {
+  JsonMembers members = {
       {"program", json_string("hpvi " + version())},
       {"title", json_string(scene.title)},
       {"dimension", std::to_string(dim)},
-      {"units", object({{"length", json_string(length)}, {"stress", json_string(stress)}})},
+      {"units", json_members({{"length", json_string(length)}, {"stress", json_string(stress)}})},
       {"history", boolean(scene.has_load_history())},
-      {"words", strings(lines_of(scene_in_words(scene)))},
-      {"changed",
-       scene.parameters ? strings(changed_entries(effective_parameters(scene), dim)) : "null"}};
-  const Members drawn = drawn_members(at_the_end(scene));
+      {"words", json_strings(lines_of(scene_in_words(scene)))},
+      {"changed", scene.parameters ? json_strings(changed_entries(effective_parameters(scene), dim))
+                                   : "null"}};
+  const JsonMembers drawn = drawn_members(at_the_end(scene));
   members.insert(members.end(), drawn.begin(), drawn.end());
   return json_file(members);
 }

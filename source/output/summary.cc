@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/file_format.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/version.h>
 #include <hpvi/driver/threads.h>
 #include <hpvi/output/contact_report.h>
-#include <hpvi/output/plate_report.h>
+#include <hpvi/output/json_tree.h>
 #include <hpvi/output/pretension_report.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/reader/scene_reader.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -21,12 +24,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-std::string units_json(const std::string &length, const std::string &stress)
-{
-  return "{\n    \"length\": " + json_string(length) + ",\n    \"stress\": " + json_string(stress) +
-         "\n  }";
-}
-
 /** What became of a history of loads. */
 std::string loading_json(const LoadStep &load, const unsigned int n_load_steps)
 {
@@ -56,18 +53,21 @@ std::string largest_json(const Scene<dim> &scene, const HistoryLargest &largest)
   for (unsigned int d = 0; d < dim; ++d)
     where[d] = largest.where[d];
   const bool is_contact = largest.boundary < scene.boundaries.size();
-  return "{\"value\": " + json_value(largest.value) + ", \"at\": " + json_point<dim>(where) +
-         ", \"boundary\": " +
-         json_value(is_contact ? scene.boundaries[largest.boundary].name : "") +
-         ", \"load_step\": " + text(largest.load_step) + ", \"t\": " + text(largest.t) + "}";
+  return json_members(
+      {{"value", json_value(largest.value)},
+       {"at", json_point<dim>(where)},
+       {"boundary", json_value(is_contact ? scene.boundaries[largest.boundary].name : "")},
+       {"load_step", text(largest.load_step)},
+       {"t", text(largest.t)}});
 }
 
 template <int dim>
 std::string history_json(const Scene<dim> &scene, const HistorySoFar &history)
 {
-  return "{\n    \"pressure\": " + largest_json(scene, history.pressure) +
-         ",\n    \"von_mises\": " + largest_json(scene, history.von_mises) +
-         ",\n    \"opening\": " + largest_json(scene, history.opening) + "\n  }";
+  return json_members({{"pressure", largest_json(scene, history.pressure)},
+                       {"von_mises", largest_json(scene, history.von_mises)},
+                       {"opening", largest_json(scene, history.opening)}},
+                      4);
 }
 
 /** The same without the factor of Coulomb's law, where there is no bound either. */
@@ -77,8 +77,7 @@ std::string estimate_json(const Record &row)
                               of_all = number_of(row, "energy_norm");
   if (!norm || !of_all)
     return "null";
-  return "{\n    \"energy_norm\": " + json_value(value_of(row, "error_estimate_equilibrated")) +
-         ",\n    \"relative\": " + json_value(Value(*norm == 0. ? 0. : *norm / *of_all)) + "\n  }";
+  return json_object({{"energy_norm", *norm}, {"relative", *norm == 0. ? 0. : *norm / *of_all}});
 }
 
 /** The bound in the row of its step; relative to a displacement of zero it is null. */
@@ -88,14 +87,15 @@ std::string bound_json(const Record &row)
     return "null";
   const auto field = [&](const std::string &column) { return json_value(value_of(row, column)); };
   const bool is_of_energy = text(value_of(row, "bound_kind")) == text(BoundKind::energy);
-  return "{\n    \"step\": " + field("step") +
-         ",\n    \"guaranteed\": " + (is_of_energy ? "true" : "false") +
-         ",\n    \"kind\": " + field("bound_kind") +
-         ",\n    \"energy_norm\": " + field("error_bound") +
-         ",\n    \"relative\": " + field("error_bound_relative") +
-         ",\n    \"imbalance\": " + field("bound_imbalance") + ",\n    \"energy\": " +
-         (is_of_energy ? "[" + field("energy_low") + ", " + field("energy_high") + "]" : "null") +
-         "\n  }";
+  return json_members(
+      {{"step", field("step")},
+       {"guaranteed", is_of_energy ? "true" : "false"},
+       {"kind", field("bound_kind")},
+       {"energy_norm", field("error_bound")},
+       {"relative", field("error_bound_relative")},
+       {"imbalance", field("bound_imbalance")},
+       {"energy", is_of_energy ? json_list({field("energy_low"), field("energy_high")}) : "null"}},
+      4);
 }
 } // namespace
 
@@ -185,7 +185,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
           : "";
   const bool began_elsewhere = !scene_file.empty();
   Record seconds = stage_record(times);
-  std::vector<std::pair<std::string, std::string>> entries{
+  JsonMembers entries{
       {"status", json_string(text(status))},
       {"stopped_by", json_value(text(stopped_by))},
       {"message", json_value(message)},
@@ -197,7 +197,7 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"program", json_string("hpvi " + version())},
       {"build", json_string(build_type())},
       {"deal.II", json_string(DEAL_II_PACKAGE_VERSION)},
-      {"units", units_json(scene.length_unit, scene.stress_unit)},
+      {"units", json_object({{"length", scene.length_unit}, {"stress", scene.stress_unit}})},
       {"normal_contact", json_value(normal_contact)},
       {"linear", json_value(linear)},
       {"processes", text(processes)},
@@ -219,9 +219,9 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"largest_displacement", ending.largest_displacement},
       {"no_intervals", ending.no_intervals},
       {"seconds", json_object(seconds)},
-      {"warnings", json_lines(warnings)},
-      {"input_files", json_lines(input_files)},
-      {"files", json_lines(files)}};
+      {"warnings", json_strings(warnings, 4)},
+      {"input_files", json_strings(input_files, 4)},
+      {"files", json_strings(files, 4)}};
   if (scene.has_plates())
     entries.emplace_back("plates", ending.plates);
   if (!scene.pretensions.empty())
@@ -233,6 +233,45 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
   return json_file(entries);
 }
 
+namespace
+{
+JsonTree summary_in(const std::filesystem::path &directory)
+{
+  return json_tree(content_of(directory / "summary.json")).value_or(JsonTree());
+}
+} // namespace
+
+bool is_complete_run(const std::filesystem::path &directory)
+{
+  const JsonTree summary = summary_in(directory);
+  return words_of(summary, "status") == text(RunStatus::done) &&
+         words_of(summary, "program") == "hpvi " + version();
+}
+
+template <int dim>
+std::vector<std::string> input_files_of(const Scene<dim> &scene)
+{
+  std::vector<std::string> result =
+      entries_of(effective_parameters(scene), [](const std::string &, const std::string &entry)
+                 { return entry == "File" || entry == "Reference solution"; });
+  const auto is_empty = [](const std::string &entry)
+  { return entry.find(" = content ") == std::string::npos; };
+  result.erase(std::remove_if(result.begin(), result.end(), is_empty), result.end());
+  return result;
+}
+
+std::vector<std::string> input_files_of(const std::filesystem::path &directory)
+{
+  const JsonTree summary = summary_in(directory);
+  std::vector<std::string> result;
+  if (const JsonTree *const files = member(summary, "input_files"))
+    for (const auto &file : *files)
+      result.push_back(file.second.data());
+  return result;
+}
+
+template std::vector<std::string> input_files_of(const Scene<2> &);
+template std::vector<std::string> input_files_of(const Scene<3> &);
 template void Summary::add(const StepReport<2> &, const Record &);
 template void Summary::add(const StepReport<3> &, const Record &);
 template std::string Summary::json(const Scene<2> &, const std::vector<std::string> &) const;

@@ -64,12 +64,11 @@ void measure(const Scene<3> &) // refused when it was read
 }
 
 /** Another run may be writing there, and files of these names may be another's. */
-std::unique_ptr<ResultDirectory> opened(const std::string &directory)
+std::unique_ptr<ResultDirectory> opened(const std::string &directory, const std::string &writes)
 {
   try
   {
-    return std::make_unique<ResultDirectory>(directory, results::report,
-                                             std::vector<std::string>());
+    return std::make_unique<ResultDirectory>(directory, writes, std::vector<std::string>());
   }
   catch (const InputError &error)
   {
@@ -111,7 +110,8 @@ void draw(const Scene<3> &scene, const std::string &)
 /** `hpvi --report`: scene.json and report.html into @p directory. Throws InputError or OutputFailure. */
 void tell_of_run(const std::string &directory, const bool with_pdf)
 {
-  const std::unique_ptr<ResultDirectory> results = opened(directory);
+  const std::unique_ptr<ResultDirectory> results =
+      opened(directory, results::report + (with_pdf ? "|" + results::pdf : ""));
   const ParameterFile file(directory + "/scene.prm");
   write_scene(*results, scene_dimension(file) == 3 ? scene_json(read_scene<3>(file))
                                                    : scene_json(read_scene<2>(file)));

@@ -6,13 +6,13 @@
 #include <hpvi/output/output.h>
 #include <hpvi/output/results_report.h>
 #include <hpvi/output/scene_words.h>
-#include <hpvi/output/stop_reason.h>
 #include <hpvi/plane/matching.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/run.h>
 #include <hpvi/program/started_processes.h>
 #include <hpvi/program/terminal.h>
+#include <hpvi/reader/scene_reader.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -161,6 +161,31 @@ std::string balance_in_words(const StepReport<dim> &step)
          "\n" + of_bodies;
 }
 
+/** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without; @p by_coupling: one of Coulomb's law. */
+std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivity,
+                        const bool has_bound, const bool by_coupling)
+{
+  const Stop stop = stopped_by.stop;
+  if (stop == Stop::round_off)
+    return "stopped: exact to round-off";
+  if (stop == Stop::first_step)
+    return "solved once, as Loading/Adapt = first step says";
+  if (stop == Stop::tolerance && adaptivity.tolerance_column == equilibrated_estimate)
+    return "done: the error, estimated by a stress in equilibrium, is below Adaptivity/Tolerance";
+  if (stop == Stop::tolerance && !adaptivity.tolerance_column.empty())
+    return "done: " + adaptivity.tolerance_column +
+           (by_coupling ? ", if the coupling is as estimated, is known" : " is guaranteed") +
+           " to Adaptivity/Tolerance of its value";
+  if (stop == Stop::tolerance && adaptivity.is_default_tolerance)
+    return std::string("done: the error ") +
+           (has_bound && by_coupling && adaptivity.tolerance_on == Indicator::bound
+                ? "bound, if the coupling is as estimated, "
+                : "") +
+           (has_bound && adaptivity.tolerance_on == Indicator::bound ? "" : "indicator ") +
+           "is below " + default_tolerance + ", the default of Adaptivity/Tolerance";
+  return "stopped by " + std::string(stop == Stop::load_step ? "the " : "Adaptivity/") +
+         text(stopped_by);
+}
 /** What is said when the last step is over. */
 struct Ending
 {

@@ -9,10 +9,10 @@
 #include <hpvi/base/text.h>
 #include <hpvi/driver/backend.h>
 #include <hpvi/driver/load_history.h>
-#include <hpvi/output/complete_run.h>
 #include <hpvi/output/output.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/output/scene_words.h>
+#include <hpvi/output/summary.h>
 #include <hpvi/program/interruption.h>
 #include <hpvi/program/started_processes.h>
 #include <hpvi/program/sweep_run.h>

@@ -42,6 +42,10 @@ template <int dim>
 std::string von_mises_json(const std::vector<StressSample<dim>> &extrema,
                            const std::vector<StressSingularity<dim>> &unbounded);
 
+/** Of each plate its mean point, how that moves and turns, and the moment about it: an object of JSON. */
+template <int dim>
+std::string plates_json(const Scene<dim> &scene, const Equilibrium<dim> &equilibrium);
+
 /** Forces and moments of the loads and by boundary, an object of JSON. */
 template <int dim>
 std::string forces_json(const Equilibrium<dim> &equilibrium);

@@ -58,24 +58,24 @@ struct GrowingTable : GrowingText
   void add(const std::vector<Record> &rows);
 };
 
-/** An array of JSON, each item on a line of its own. */
-template <class Lines>
-std::string json_lines(const Lines &lines)
-{
-  std::string list;
-  for (const std::string &line : lines)
-    list += (list.empty() ? "\n    " : ",\n    ") + json_string(line);
-  return "[" + list + (list.empty() ? "]" : "\n  ]");
-}
-
 /** As JSON, where nothing and no words are null. */
 std::string json_value(const Value &value);
+
+/** Names and values, which are JSON themselves. */
+using JsonMembers = std::vector<std::pair<std::string, std::string>>;
+
+/** Arrays and objects. @p indent: that of their items, each on a line of its own; 0: all on one line. */
+std::string json_list(const std::vector<std::string> &items, unsigned int indent = 0);
+std::string json_members(const JsonMembers &members, unsigned int indent = 0);
+
+/** An array of these texts. */
+std::string json_strings(std::vector<std::string> words, unsigned int indent = 0);
 
 /** As an object of JSON. */
 std::string json_object(const Record &record);
 
-/** A whole file of JSON: an object of these members, whose values are JSON themselves. */
-std::string json_file(const std::vector<std::pair<std::string, std::string>> &members);
+/** A whole file of JSON: an object of these members. */
+std::string json_file(const JsonMembers &members);
 } // namespace hpvi
 
 #endif

@@ -26,7 +26,7 @@ inline const std::string
     vtu = "solution-[0-9]{2,}\\.vtu|solution\\.pvd",
     pieces = "solution-[0-9]{2,}\\.(pvtu|[0-9]+\\.vtu)|solution\\.pvd",
     contact_line = "contact-[0-9]{2,}\\.vtu|contact\\.pvd", reference = "reference\\.dat",
-    picture = "scene\\.svg", report = "report\\.html|scene\\.json",
+    picture = "scene\\.svg", report = "report\\.html|scene\\.json", pdf = "report\\.pdf",
     probe = "probe-[A-Za-z0-9_ -]+-[0-9]{2,}\\.csv";
 
 /**

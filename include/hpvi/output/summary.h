@@ -5,6 +5,7 @@
 #include <hpvi/driver/step_report.h>
 #include <hpvi/output/record.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +73,16 @@ struct Summary
   template <int dim>
   std::string json(const Scene<dim> &scene, const std::vector<std::string> &files) const;
 };
+
+/** Does summary.json in @p directory say that this version of the program is done there? */
+bool is_complete_run(const std::filesystem::path &directory);
+
+/** Of each mesh file, and of the reference solution, its entry and what is in it: "Geometry/File = content checksum 0a1b2c3d". */
+template <int dim>
+std::vector<std::string> input_files_of(const Scene<dim> &scene);
+
+/** Those that summary.json in @p directory has. */
+std::vector<std::string> input_files_of(const std::filesystem::path &directory);
 } // namespace hpvi
 
 #endif

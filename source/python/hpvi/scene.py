@@ -15,13 +15,15 @@ FONT, LINE = 8.5, 10.5  # points
 
 
 class Part:
-    """A part of a boundary, the body on its left: places (n, 2), outer normals, lengths along it."""
+    """Edges of a boundary that follow each other, the body on the left: places (n, 2), outer normals, lengths along them."""
 
-    def __init__(self, own):
-        self.x = np.array(own["x"], float)
-        steps = np.diff(self.x, axis=0)
-        self.s = np.append(0, np.hypot(*steps.T).cumsum())
-        self.data = {name: None if own[name] is None else np.array(own[name], float) for name in ("gap", "traction", "displacement")}
+    def __init__(self, edges):
+        def joined(name):  # an edge begins where the one before it ends
+            return np.concatenate([np.array(edge[name], float)[k > 0:] for k, edge in enumerate(edges)])
+
+        self.x = joined("x")
+        self.s = np.append(0, np.hypot(*np.diff(self.x, axis=0).T).cumsum())
+        self.data = {name: None if edges[0][name] is None else joined(name) for name in ("gap", "traction", "displacement")}
 
     def at(self, s):
         """Places and outer normals at lengths s (m,)."""
@@ -43,11 +45,34 @@ class Part:
         return np.stack([np.interp(s, self.s, data[:, d]) for d in (0, 1)], axis=1)
 
 
+def parts_of(edges):
+    """Parts of a boundary without corners."""
+    def goes_on(edge, other, cosine_of_corner=0.64):  # 50 degrees: an edge of a polygon for a curve turns by less
+        arriving, leaving = np.subtract(edge["x"][-1], edge["x"][-2]), np.subtract(other["x"][1], other["x"][0])
+        return arriving @ leaving > cosine_of_corner * math.hypot(*arriving) * math.hypot(*leaving)
+
+    beginning, following = {}, {}
+    for k, edge in enumerate(edges):
+        beginning.setdefault(tuple(edge["x"][0]), []).append(k)
+    for k, edge in enumerate(edges):
+        following[k] = next((other for other in beginning.get(tuple(edge["x"][-1]), []) if goes_on(edge, edges[other])), None)
+    inner = set(following.values())
+    firsts = sorted(following, key=inner.__contains__)  # of a closed curve any
+    parts = []
+    for k in firsts:
+        chain = []
+        while k in following:
+            chain.append(edges[k])
+            k = following.pop(k)
+        parts += [Part(chain)] if chain else []
+    return parts
+
+
 class Sheet:
     """Marks in units of a hundredth of the body's longer side, and boxes of words that find places beside them."""
 
-    def __init__(self, scene, axes):
-        self.scene, self.axes = scene, axes
+    def __init__(self, scene, axes, is_brief):
+        self.scene, self.axes, self.is_brief = scene, axes, is_brief
         corners = np.concatenate([np.array(cell["outline"], float) for cell in scene["cells"]])
         self.low, self.high = corners.min(axis=0), corners.max(axis=0)
         self.u = (self.high - self.low).max() / 100
@@ -78,8 +103,9 @@ class Sheet:
         self.strokes(at, at + lean, color=GROUND, linewidth=0.7)
 
     def note(self, place, outward, lines, gid=None):
-        """lines: (words, colour, is bold)."""
-        self.notes.append((np.asarray(place, float), np.asarray(outward, float), lines, gid))
+        """lines: (words, colour, is bold), broken where they are long."""
+        lines = [(part, colour, is_bold) for words, colour, is_bold in lines for part in textwrap.wrap(words, 20 if self.is_brief else 32) or [""]]
+        self.notes.append((np.asarray(place, float), np.asarray(outward, float), lines, gid, extents(lines)))
 
 
 # ------------------------------------------------------------------ marks: each begins `band` outside of the body and returns where it ends
@@ -203,21 +229,21 @@ def draw_vectors(sheet, boundary, part, band, name, colour, largest):
 
 
 def words_of(sheet, boundary):
-    name = boundary["name"] + (f"  (curves {boundary['curves']})" if boundary["curves"] else "")
-    lines = [(name, "black", True)]
+    loads = [(words, LOAD, False) for words in boundary["loads"]]
     if sheet.is_brief:
-        return lines + [(words, LOAD, False) for words in boundary["loads"]]
+        return [(boundary["name"], "black", True)] + loads
+    lines = [(boundary["name"] + (f"  (curves {boundary['curves']})" if boundary["curves"] else ""), "black", True)]
     lines += [(words, SUPPORT, False) for words in boundary["supports"]] + [(words, CONTACT, False) for words in boundary["contacts"]]
     if (times := gap_scale(sheet, boundary)) != 1:
         lines.append((f"(gap drawn {digits(times, 4)} times as wide)", GREY, False))
-    lines += [(words, LOAD, False) for words in boundary["loads"]]
+    lines += loads
     return lines if len(lines) > 1 or boundary["pair"] else lines + [("free", GREY, False)]
 
 
 def draw_boundaries(sheet):
     scene = sheet.scene
     for boundary in scene["boundaries"]:
-        boundary["drawn"] = [Part(own) for own in boundary["parts"]]
+        boundary["drawn"] = parts_of(boundary["edges"])
     largest = {name: max((np.hypot(*part.data[name].T).max() for boundary in scene["boundaries"] for part in boundary["drawn"]
                           if part.data[name] is not None), default=1) for name in ("traction", "displacement")}
     for boundary in scene["boundaries"]:
@@ -292,12 +318,13 @@ def draw_probes(sheet):
 # ------------------------------------------------------------------ words
 
 
-def extents(lines, scale):
-    """Width and height of a box of lines [length]; scale: length per point."""
+def extents(lines):
+    """Width and height of a box of lines [points]."""
     from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import TextPath
-    widths = [TextPath((0, 0), words or " ", size=FONT, prop=FontProperties(weight="bold" if is_bold else "normal")).get_extents().x1 for words, _, is_bold in lines]
-    return np.array([max(widths), LINE * len(lines)]) * scale
+    from matplotlib.textpath import text_to_path
+    fonts = [FontProperties(size=FONT, weight=weight) for weight in ("normal", "bold")]
+    widths = [text_to_path.get_text_width_height_descent(words, fonts[is_bold], False)[0] for words, _, is_bold in lines]
+    return np.array([max(widths), LINE * len(lines)])
 
 
 def overlaps(box, others):
@@ -308,37 +335,48 @@ def crossed(box, marks):
     return bool(((marks > box[0]) & (marks < box[1])).all(axis=1).any())
 
 
-def place_notes(sheet, scale):
-    """Each as near to its place as there is room: (note, low corner, size)."""
-    placed, boxes = [], []
-    marks = np.concatenate([dense(mark) for mark in sheet.marks]) if sheet.marks else np.zeros((0, 2))
+def place_notes(sheet, scale, marks):
+    """Each as near to its place as there is room: (note, low corner, high corner), and whether all have found some."""
+    placed, boxes, has_room = [], [], True
     for note in sheet.notes:
-        place, outward, lines, _ = note
-        size = extents(lines, scale)
+        place, outward, _, _, size = note
+        size = size * scale
         across = np.array([-outward[1], outward[0]])
-        for reach in range(60):
-            centres = [place + outward * (abs(outward) @ size / 2 + (4 + 3 * (reach // 3)) * scale) + across * side * (reach % 3) * 0.5 * (abs(across) @ size)
-                       for side in (1, -1)]
-            boxes_here = [(centre - size / 2, centre + size / 2) for centre in centres]
-            free = [box for box in boxes_here if not overlaps(box, boxes) and not crossed(box, marks)]
+        for reach in range(150):
+            step, aside = divmod(reach, 5)
+            centres = [place + outward * (abs(outward) @ size / 2 + (4 + 3 * step) * scale) + across * side * aside * 0.4 * (abs(across) @ size) for side in (1, -1)]
+            here = [(centre - size / 2, centre + size / 2) for centre in centres]
+            free = [box for box in here if not overlaps(box, boxes) and not crossed(box, marks)]
             if free:
                 break
-        box = (free or boxes_here)[0]
-        boxes.append(box)
-        placed.append((note, *box))
-    return placed
+        has_room = has_room and bool(free)
+        boxes.append((free or here)[0])
+        placed.append((note, *boxes[-1]))
+    return placed, has_room
 
 
-def dense(mark):
-    """Points along a line, so that a word does not lie between two of them."""
-    if len(mark) < 2 or len(mark) > 40:
-        return mark
-    t = np.linspace(0, 1, 12)[:, None]
-    return np.concatenate([a + t * (b - a) for a, b in zip(mark, mark[1:])])
+def arranged(sheet, room):
+    """The notes where the body is as large as the room (width, height) [points] lets it be: length per point, notes, low and high corner of all."""
+    marks = np.concatenate([dense(mark, sheet.u) for mark in sheet.marks])
+    body = np.concatenate([sheet.low[None], sheet.high[None], *sheet.marks])
+    for scale in max(np.ptp(body, axis=0) / room) * 1.08 ** np.arange(18):
+        placed, has_room = place_notes(sheet, scale, marks)
+        everything = np.concatenate([body, *[np.array(box) for _, *box in placed]])
+        low, high = everything.min(axis=0) - 3 * scale, everything.max(axis=0) + 3 * scale
+        if has_room and (high - low <= scale * room).all():
+            break
+    return scale, placed, low, high
+
+
+def dense(mark, spacing):
+    """Points along a line, so that no word lies between two of them."""
+    way = np.diff(mark, axis=0)
+    pieces = [a + np.linspace(0, 1, 2 + int(np.hypot(*w) / spacing))[:, None] * w for a, w in zip(mark, way)]
+    return np.concatenate([mark, *pieces])
 
 
 def write_notes(sheet, placed, scale):
-    for (place, _, lines, gid), low, high in placed:
+    for (place, _, lines, gid, _), low, high in placed:
         nearest = np.clip(place, low, high)
         if np.hypot(*(nearest - place)) > 14 * scale:
             sheet.axes.plot(*np.array([place, nearest]).T, color=GREY, linewidth=0.5, clip_on=False)
@@ -353,41 +391,41 @@ def scene(data, axes, is_brief=False):
     is_brief: names and loads alone, where the words stand beside the picture. Returns remarks. Of a load history it is the end, t = 1. Raises ValueError for a scene in space."""
     if data["dimension"] != 2:
         raise ValueError("Dimension = 3: pictures show scenes in the plane alone")
-    sheet = Sheet(data, axes)
-    sheet.is_brief = is_brief
+    length = pretty(data["units"]["length"])
+    sheet = Sheet(data, axes, is_brief)
     draw_cells(sheet)
     draw_boundaries(sheet)
     draw_loads_inside(sheet)
     draw_probes(sheet)
-    key = key_of_materials(axes, data["materials"])
-    width, height = axes.figure.get_size_inches() * 72 - np.array([62., 70. + (LINE + 2) * key])
-    low, high = sheet.low - 12 * sheet.u, sheet.high + 12 * sheet.u
-    most = 1.8 * max((high - low) / (width, height))  # else words push each other away until the body is a dot
-    for _ in range(4):  # the size of words changes that of the picture
-        scale = min(max((high - low) / (width, height)), most)
-        placed = place_notes(sheet, scale)
-        everything = np.concatenate([sheet.low[None], sheet.high[None], *sheet.marks, *[np.array(box) for _, *box in placed]])
-        low, high = everything.min(axis=0) - sheet.u, everything.max(axis=0) + sheet.u
-    placed = place_notes(sheet, scale)
-    write_notes(sheet, placed, scale)
-    middle, half = (low + high) / 2, np.minimum(high - low, scale * np.array([width, height])) / 2
-    low, high = middle - half, middle + half
-    length = pretty(data["units"]["length"])
-    axes.set(aspect="equal", xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel=label("x", length, "length"), ylabel=label("y", length, "length"))
+    key_of_materials(axes, data["materials"])
+    axes.set(aspect="equal", xlim=(sheet.low[0], sheet.high[0]), ylim=(sheet.low[1], sheet.high[1]), xlabel=label("x", length, "length"), ylabel=label("y", length, "length"))
+    axes.set_title("" if is_brief else data["title"], parse_math=False)
     axes.locator_params(nbins=5)
+    room = np.zeros(2)
+    for _ in range(3):  # limits change what is beside the axes, and that changes the room
+        if engine := axes.figure.get_layout_engine():
+            engine.execute(axes.figure)
+        inches, before = axes.figure.get_size_inches(), room
+        room = axes.get_position(original=True).size * inches * 72 - 4
+        if (abs(room - before) < 2).all():
+            break
+        scale, placed, low, high = arranged(sheet, room)
+        if len(axes.figure.axes) == 1:  # what finds no room makes some
+            axes.figure.set_size_inches(inches + ((high - low) / scale - room).clip(0) / 72)
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+    write_notes(sheet, placed, scale)
     return ["what the scene says" + (", at the end of its load history, t = 1" if data["history"] else "")]
 
 
 def key_of_materials(axes, materials):
-    """Returns the number of its lines; they are no longer than the picture is wide."""
+    """Its lines are no longer than the picture is wide."""
     from matplotlib.patches import Patch
     if len(materials) < 2:
-        return 0
+        return
     width = int(axes.figure.get_figwidth() * 72 / 5) - 12
     labels = ["\n".join(textwrap.wrap(f"{one['name']}: {one['words']}", width)) for one in materials]
     axes.legend(handles=[Patch(facecolor=MATERIALS[one["number"] % 8], edgecolor=GROUND, label=words) for one, words in zip(materials, labels)],
                 loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, frameon=False, fontsize=FONT, handlelength=1.4)
-    return sum(words.count("\n") + 1 for words in labels)
 
 
 def scene_svg(data):
@@ -399,7 +437,6 @@ def scene_svg(data):
         figure, axes = plot.figure(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8)))
         try:
             remarks = scene(data, axes)
-            axes.set_title(data["title"], parse_math=False)
             if data["history"]:
                 figure.text(0.5, 0, remarks[0], ha="center", va="top", fontsize=9)
             file = io.StringIO()
