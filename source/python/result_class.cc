@@ -210,6 +210,12 @@ void add_result(py::module_ &module)
 
 axes: matplotlib's, to draw into; scale: how many times displacements are shown.)")
       .def(
+          "vtk",
+          [](const py::object &result, const unsigned int n)
+          { return py::module_::import("hpvi.results").attr("vtk")(result, n); },
+          py::arg("n") = 5,
+          "A vtkUnstructuredGrid of python3-vtk9, with n points a direction of each cell.")
+      .def(
           "u",
           [](const Result &result, const py::array_t<double> &points, const std::string &body)
           { return at_points(result, points, body, &PointArrays::u, {result.dimension()}); },

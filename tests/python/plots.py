@@ -57,6 +57,29 @@ class Plots(unittest.TestCase):
         vertices = result.mesh.vertices + 3 * result.u(result.mesh.vertices)
         self.assertTrue((corners[0] <= vertices.min(axis=0) + 1e-9).all() and (corners[1] >= vertices.max(axis=0) - 1e-9).all())
 
+    @unittest.skipUnless(importlib.util.find_spec("vtkmodules"), "python3-vtk9 is not installed")
+    def test_a_grid_of_vtk(self):
+        """Its values are those of the result, its cells fill the body and none is turned inside out."""
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkFiltersVerdict import vtkCellSizeFilter
+        for name, measure, size in (("han-6-12", "Area", 16), ("slab", "Volume", 32)):
+            result = scene(name, **{STEPS: 1}).solve()
+            grid, values = result.vtk(3), result.grid(3)
+            shown = {k: vtk_to_numpy(grid.GetPointData().GetArray(k)) for k in ("displacement", "stress", "von_mises")}
+            d = result.dimension
+            np.testing.assert_array_equal(shown["displacement"][:, :d], values["u"].reshape(-1, d))
+            np.testing.assert_array_equal(shown["stress"], values["stress"].reshape(-1, 9))
+            np.testing.assert_allclose(shown["von_mises"].max(), hpvi.results.von_mises(values["stress"]).max())
+            self.assertEqual(list(vtk_to_numpy(grid.GetCellData().GetArray("degree"))[::2 ** d]), list(result.mesh.degrees))
+            sizes = vtkCellSizeFilter()
+            sizes.SetInputData(grid)
+            sizes.Update()
+            areas = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray(measure))
+            self.assertGreater(areas.min(), 0)
+            self.assertAlmostEqual(areas.sum(), size, places=9)
+            x = vtk_to_numpy(grid.GetPoints().GetData())[:, :d]
+            np.testing.assert_allclose(result.u(x[5:50:7]), shown["displacement"][5:50:7, :d], atol=1e-12)
+
     def test_axes_of_others(self):
         figure, axes = plt.subplots()
         self.assertIs(scene("han-6-12").solve().plot("convergence", axes), figure)

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 PROGRAM, MODULE = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
-sys.path.insert(0, str(MODULE))
+sys.path[:0] = [str(MODULE), str(pathlib.Path(__file__).resolve().parents[1])]
 import hpvi  # noqa: E402
 
 if importlib.util.find_spec("matplotlib") is None:
@@ -18,6 +18,7 @@ if importlib.util.find_spec("matplotlib") is None:
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from crowded import crowded  # noqa: E402
 from hpvi import plot  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -43,9 +44,6 @@ class Drawn:
     def line(self, gid):
         return next(line.get_xydata() for line in self.axes.lines if line.get_gid() == gid)
 
-    def boxes(self):
-        return [(text.get_text(), text.get_window_extent()) for text in self.axes.texts if text.get_text()]
-
 
 class Scenes(unittest.TestCase):
     def tearDown(self):
@@ -53,10 +51,7 @@ class Scenes(unittest.TestCase):
 
     def draw(self, name=None, **entries):
         drawn = Drawn(hpvi.Scene(ROOT / f"prm/{name}.prm", entries) if name else hpvi.Scene({**BAR, **entries}))
-        boxes = drawn.boxes()
-        for k, (words, box) in enumerate(boxes):
-            for other, beside in boxes[:k]:
-                self.assertFalse(box.shrunk(0.9, 0.7).overlaps(beside.shrunk(0.9, 0.7)), f"{name}: {words} on {other}")
+        self.assertEqual(crowded(drawn.figure), [])
         self.assertGreaterEqual(min(text.get_fontsize() for text in drawn.axes.texts), 8)
         return drawn
 

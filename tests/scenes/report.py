@@ -2,25 +2,30 @@
 """report.py HPVI: charts show what the tables hold, and the page says what its reader needs; all drawn in one process. Status 77 without matplotlib."""
 
 import base64
+import functools
 import importlib.util
+import itertools
 import pathlib
 import re
 import sys
+import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from runs import PROGRAM, SCENES, RunTest
+from runs import PROGRAM, SCENES, command, run_program
 
 NEEDED = ("matplotlib", "jinja2")
 if any(importlib.util.find_spec(name) is None for name in NEEDED):
     print("skipped: matplotlib or jinja2 is not installed")
     sys.exit(77)
-sys.path.insert(0, str(pathlib.Path(PROGRAM).resolve().parent / "python"))
+sys.path[:0] = [str(pathlib.Path(PROGRAM).resolve().parent / "python"), str(pathlib.Path(__file__).resolve().parents[1])]
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from crowded import watched  # noqa: E402
 from hpvi import plot, report, results, words  # noqa: E402
+from hpvi.scene import MATERIALS  # noqa: E402
 
 FEW = ("Adaptivity/Maximum steps=3", "Error/Bound=last step")
 TWO_FEET = """set Title = two feet
@@ -46,6 +51,14 @@ end
 """
 
 
+HOME = tempfile.TemporaryDirectory()
+PUNCH = ("punch", "Adaptivity/Maximum steps=14")
+LOOP = ("fretting", "Loading/Steps=6", *FEW)
+# What a dichromat sees of linear red, green and blue: G. M. Machado and others, doi:10.1109/TVCG.2009.113.
+BLINDNESS = (((0.367322, 0.860646, -0.227968), (0.280085, 0.672501, 0.047413), (-0.011820, 0.042940, 0.968881)),
+             ((0.152286, 1.052583, -0.204868), (0.114503, 0.786281, 0.099216), (-0.003882, -0.048116, 1.051998)))
+
+
 def drawn(function, *arguments, **options):
     figure, axes = plot.figure()
     remarks = function(*arguments[:1], axes, *arguments[1:], **options)
@@ -58,28 +71,32 @@ def line_named(axes, name):
     return next(line for line in axes.lines if line.get_label() == name)
 
 
-class Report(RunTest):
+@functools.lru_cache(maxsize=None)
+def solve(name, *settings):
+    """The run of a scene of prm/, or of TWO_FEET."""
+    directory = pathlib.Path(tempfile.mkdtemp(dir=HOME.name))
+    scene = SCENES / f"{name}.prm"
+    if name == "two feet":
+        scene = directory / "mine.prm"
+        scene.write_text(TWO_FEET)
+    status, _, errors = run_program(command(scene, directory / "out", *settings))
+    assert status == 0, errors
+    return results.Run(directory / "out")
+
+
+@functools.lru_cache(maxsize=None)
+def page_of(run):
+    """Without its pictures, and how many these are."""
+    text = report.page(run)
+    pictures = re.findall(r"data:image/svg\+xml;base64,([^\"]*)", text)
+    for picture in pictures:
+        ElementTree.fromstring(base64.b64decode(picture))
+    return re.sub("base64,[^\"]*", "", text), len(pictures)
+
+
+class Charts(unittest.TestCase):
     def tearDown(self):
         plt.close("all")
-        super().tearDown()
-
-    def solve(self, name=None, *settings, text=None):
-        scene = SCENES / f"{name}.prm"
-        if text:
-            scene = self.home / "mine.prm"
-            scene.write_text(text)
-        self.run_scene(*settings, scene=scene)
-        return results.Run(self.out)
-
-    def page_of(self, run):
-        """It is whole, and needs nothing but itself."""
-        text = report.page(run)
-        self.assertTrue(text.startswith("<!-- the run, told by hpvi -->") and text.endswith("</html>"))
-        self.assertNotRegex(text, r'(src|href)="(?!data:)|https?://(?!www\.w3\.org)|<script|\bnan\b|None\b(?!\.)')
-        pictures = re.findall(r"data:image/svg\+xml;base64,([^\"]*)", text)
-        for picture in pictures:
-            ElementTree.fromstring(base64.b64decode(picture))
-        return re.sub("base64,[^\"]*", "", text), len(pictures)
 
     def check_contact(self, run):
         """Each line of the chart is a column of contact-NN.csv."""
@@ -102,85 +119,106 @@ class Report(RunTest):
         np.testing.assert_array_equal(line_named(axes, "indicator, no bound").get_ydata(), values[np.isfinite(values)])
 
     def test_charts_are_the_tables(self):
-        """Of ten scenes; one of them has two contacts, one a history, one is axisymmetric."""
+        """Of ten scenes; one of them has two contacts, two a history, one is axisymmetric. No words lie on each other."""
         for name, more in (("han-6-12", ()), ("punch", ()), ("hertz", ()), ("receding", ()), ("brake-pad", ()), ("press-ring-axi", ()),
                            ("jaws", ()), ("seal", ()), ("fretting", ("Loading/Steps=4",)), ("bolted-flange", ("Loading/Steps=2",))):
-            with self.subTest(name):
-                run = self.solve(name, *FEW, *more)
+            with self.subTest(name), watched() as crowded:
+                run = solve(name, *FEW, *more)
                 self.check_contact(run)
                 self.check_convergence(run)
                 axes, _ = drawn(plot.mesh, run)
                 np.testing.assert_array_equal(axes.collections[0].get_array(), run.mesh.degrees)
                 self.assertEqual(sum(run.degrees[f"p{p}"][-1] for p in np.unique(run.mesh.degrees)), len(run.mesh.degrees))
-                bar, = [one for one in axes.figure.axes if one is not axes]
-                ticks = [float(text.get_text()) for text in bar.get_xticklabels() + bar.get_yticklabels() if text.get_text()]
-                self.assertTrue(all(tick == int(tick) for tick in ticks))  # whole degrees
-                text, n_pictures = self.page_of(run)
+                text, n_pictures = page_of(run)
                 self.assertGreaterEqual(n_pictures, 4)
                 self.assertIn("mesh of the last step", text)
+                self.assertEqual(crowded, [])
 
     def test_loads_over_displacements(self):
-        run = self.solve("fretting", "Loading/Steps=6", *FEW)
+        run = solve(*LOOP)
         (boundary, component), = plot.loops(run)
         axes, _ = drawn(plot.loop, run, boundary, component)
         np.testing.assert_array_equal(axes.lines[0].get_xydata().T, [run.loading["displacement_top_x"], run.loading["force_top_x"]])
-        axes, _ = drawn(plot.load_steps, run, "bottom", "friction")  # all load steps in one chart
-        last = axes.lines[-1].get_ydata()
-        np.testing.assert_array_equal(last[np.isfinite(last)], run.contact["tangential_traction"])
-        self.assertEqual([line.get_label() for line in axes.lines], [str(k) for k in range(1, 7)])
         axes, _ = drawn(plot.energies, run)
         np.testing.assert_array_equal(line_named(axes, "work").get_ydata(), run.loading["work"])
 
-    def test_a_singular_end(self):
-        run = self.solve("punch", "Adaptivity/Maximum steps=14")
-        line, = run.lines
-        axes, remarks = drawn(plot.contact, run, line)
-        largest = line.pressure.max()
-        self.assertLess(axes.get_ylim()[1], 0.2 * largest)  # readable beside it
-        self.assertTrue(any("beyond the axis" in one and words.digits(largest, 3) in one for one in remarks))
-        low, high = axes.get_xlim()  # what is open is a strip
-        self.assertTrue(high < 2.5 and axes.child_axes)
-        text, _ = self.page_of(run)
-        self.assertRegex(text, r"pressure is unbounded at \(1, 0\)")
+    def test_in_space(self):
+        run = solve("slab", "Adaptivity/Maximum steps=2")
+        axes, _ = drawn(plot.surface, run, name="bottom", what="pressure")
+        np.testing.assert_array_equal(axes.collections[0].get_array(), -run.contact["normal_traction"])
+        text, n_pictures = page_of(run)
+        self.assertIn("Of scenes in space there is no picture", text)
+        self.assertGreaterEqual(n_pictures, 4)
+
+    def test_colours_are_told_apart_without_red_or_green(self):
+        def seen(colour, blindness):
+            rgb = np.array(matplotlib.colors.to_rgb(colour))
+            linear = np.array(blindness) @ np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+            return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear.clip(1e-9, 1) ** (1 / 2.4) - 0.055)
+
+        lines = (plot.BLUE, plot.ORANGE, plot.BLACK, plot.GREEN)
+        for colours, blindness in itertools.product((plot.STATES.values(), plot.DEGREES, MATERIALS, lines), BLINDNESS):
+            for one, other in itertools.combinations(colours, 2):
+                self.assertGreater(np.linalg.norm(seen(one, blindness) - seen(other, blindness)), 0.12, f"{one} and {other}")
+
+
+class Page(unittest.TestCase):
+    """What its reader needs, an item each."""
+
+    def tearDown(self):
+        plt.close("all")
+
+    def test_it_is_whole_and_needs_nothing_but_itself(self):
+        text = report.page(solve("two feet"))
+        self.assertTrue(text.startswith("<!-- the run, told by hpvi -->") and text.endswith("</html>"))
+        self.assertNotRegex(text, r'(src|href)="(?!data:)|https?://(?!www\.w3\.org)|<script|\bnan\b|None\b(?!\.)')
+
+    def test_the_first_line_has_the_error_and_its_word(self):
+        for run, words_of_error in ((solve(*PUNCH), "at most .* % of the solution, guaranteed"), (solve("slab", "Adaptivity/Maximum steps=2"), "about .* % .*, estimated by")):
+            self.assertRegex(page_of(run)[0].split("<p")[1], words_of_error)
+
+    def test_done_is_said_once_and_not_where_a_tolerance_is_missed(self):
+        text, _ = page_of(solve(*PUNCH))
         self.assertRegex(text, r"Done: stopped by Maximum steps of Adaptivity")
         self.assertEqual(text.count("Done"), 1)
-        self.assertRegex(text.split("<p")[1], "at most .* guaranteed")  # the bar and its word come first
+        text, _ = page_of(solve("two feet"))
+        self.assertIn("is not met", text)
+        self.assertNotIn("Done", text)
 
-    def test_two_pieces_and_names_of_columns(self):
-        run = self.solve(text=TWO_FEET)
-        line, = run.lines
+    def test_pressure_is_readable_beside_a_singular_end(self):
+        line, = solve(*PUNCH).lines
+        axes, remarks = drawn(plot.contact, solve(*PUNCH), line)
+        end, largest = axes.get_ylim()[1], line.pressure.max()
+        self.assertLess(end, 0.2 * largest)
+        self.assertGreater(end, np.median(line.pressure[line["state"] != "open"]))
+        marks = [tuple(one.get_xydata()[0]) for one in axes.lines if one.get_marker() == "^"]
+        self.assertIn((line.s[line.pressure.argmax()], end), marks)  # what lies beyond
+        self.assertIn(f"pressure {words.digits(largest, 3)}", [text.get_text() for text in axes.texts])
+        self.assertTrue(any("beyond the axis" in one and words.digits(largest, 3) in one for one in remarks))
+
+    def test_what_is_not_open_fills_the_chart(self):
+        """A millimetre of thirty, and the whole is a strip."""
+        line, = solve(*PUNCH).lines
+        axes, remarks = drawn(plot.contact, solve(*PUNCH), line)
+        low, high = axes.get_xlim()
+        closed = [end for state, _, end in line.stretches() if state != "open"]
+        self.assertTrue(max(closed) < high < 1.5 * max(closed) and high < 0.6 * line.s[-1], (max(closed), high, line.s[-1]))
+        strip, = axes.child_axes
+        self.assertEqual(strip.get_xlim(), (line.s[0], line.s[-1]))
+        self.assertIn((low, high), [(box.xmin, box.xmax) for box in (patch.get_xy() for patch in strip.patches) for box in [matplotlib.transforms.Bbox([box.min(0), box.max(0)])]])
+        self.assertTrue(any("strip" in one for one in remarks))
+
+    def test_pieces_of_a_side_are_apart(self):
+        line, = solve("two feet").lines
         self.assertEqual(len(line.starts), 1)
-        axes, _ = drawn(plot.contact, run, line)
+        axes, _ = drawn(plot.contact, solve("two feet"), line)
         x = line_named(axes, "pressure").get_xdata()
         self.assertEqual(np.isnan(x).sum(), 1)  # no line joins the feet
         self.assertEqual(len(results.breaks(line.x)), 1)  # also where nothing but points is known
-        own = run.probes()
-        self.assertEqual(set(own), {"normal", "p"})
-        self.assertEqual(own["p"]["ux"][0], run.summary["final"]["p_ux"])
-        self.assertEqual(set(own["normal"]), {"ux", "uy", "s1", "s2", "szz", "mises"})
-        text, _ = self.page_of(run)
-        self.assertIn("is not met", text)  # the tolerance, and "Done" nowhere
-        self.assertNotIn("Done", text)
-        self.assertRegex(text, r"it is unbounded at \(2, 0\), \(8, 0\)")  # all corners
-        self.assertEqual(text.count("<td>feet</td><td>open</td>") + text.count("<td>feet</td><td>slip</td>"), len(run.summary["contact"]["feet"]["zones"]))
-        self.assertIn("pressure", text.split("Contact feet")[1].split("</li>")[0])
-        self.assertRegex(text, r"<td>normal</td><td>0</td>")  # round-off
-
-    def test_the_largest_stress_is_away_from_all_peaks(self):
-        peaks = [{"at": [0, 0], "beyond": 1, "largest": 9., "largest_at": [3., 0]}, {"at": [3, 0], "beyond": 1, "largest": 8., "largest_at": [0., 0.5]}]
-        x = np.array([[0, 0.5], [3, 0], [1.5, 0], [1.6, 0]])
-        value, place = report.beyond(x, np.array([8., 9, 2, 3]), peaks)
-        self.assertEqual((value, list(place)), (3, [1.6, 0]))
-
-    def test_numbers(self):
-        number = words.Numbers(1e-3, 4.)
-        for shown, expected in ((number(0.123456, "mm"), "0.1235 mm"), (number(1e-17, largest=5.), "0"), (number(4.813676, "N", 0.00037), "4.81368 ± 0.00038 N"),
-                                (number(1e-13, half=4e-13, largest=5.), "0"), (number.place([1, -2e-14]), "(1, 0)"), (number(-5151.48, half=2450.), "-5200 ± 2500"),
-                                (words.at_most(0.01006), "0.011"), (words.interval(-0.5, 6.6e-14), "-0.5 ± 1e-12")):
-            self.assertEqual(shown, expected)
+        self.assertFalse(any(begin < 5 < end for _, begin, end in line.stretches()))
 
     def test_each_body_has_its_contact_line(self):
-        run = self.solve("blocks", *FEW)
+        run = solve("blocks", *FEW)
         line = run.lines[0]
         axes, _ = drawn(plot.body, run, scale=1)
         paths = [one for one in axes.lines if one.get_gid() == f"state of {line.name}"]
@@ -190,17 +228,79 @@ class Report(RunTest):
             self.assertTrue({tuple(np.round(point, 9)) for point in places} <= ends)
         np.testing.assert_allclose(u, line["displacement"] - line["jump"], atol=1e-9 * abs(u).max())
 
-    def test_in_space(self):
-        run = self.solve("slab", "Adaptivity/Maximum steps=2")
-        axes, _ = drawn(plot.surface, run, name="bottom", what="pressure")
-        np.testing.assert_array_equal(axes.collections[0].get_array(), -run.contact["normal_traction"])
-        text, n_pictures = self.page_of(run)
-        self.assertIn("Scenes in space", text.replace("Of scenes in space", "Scenes in space"))
-        self.assertGreaterEqual(n_pictures, 4)
+    def test_zones_are_a_table(self):
+        run = solve("two feet")
+        table, zones = report.Teller(run).zones(), run.summary["contact"]["feet"]["zones"]
+        self.assertEqual([(row[0], row[1], float(row[4])) for row in table.rows], [("feet", zone["state"], float(words.digits(zone["length"], report.Teller(run).number.n))) for zone in zones])
+        for zone in zones:
+            self.assertIn(f"<td>feet</td><td>{zone['state']}</td><td>", page_of(run)[0])
+
+    def test_round_off_is_0(self):
+        run = solve("two feet")
+        self.assertNotEqual(run.summary["final"]["normal_ux"], 0)
+        self.assertRegex(page_of(run)[0], r"<td>normal</td><td>0</td>")
+        number = words.Numbers(1e-3, 4.)
+        for shown in (number(1e-17, largest=5.), number(1e-13, half=4e-13, largest=5.), number.coordinate(-2e-14)):
+            self.assertEqual(shown, "0")
+
+    def test_no_more_digits_than_are_certain(self):
+        for error in (0.2, 0.03, 1e-3, 4e-5):
+            value = words.Numbers(error, 1.)(1 / 7)
+            self.assertGreaterEqual(7 * 10. ** (2 - len(value)), 0.1 * error, value)  # the last digit beside the whole
+            self.assertLess(abs(float(value) * 7 - 1), error)
+        number = words.Numbers(1e-3, 4.)
+        for shown, expected in ((number(0.123456, "mm"), "0.1235 mm"), (number(4.813676, "N", 0.00037), "4.81368 ± 0.00038 N"), (number(-5151.48, half=2450.), "-5200 ± 2500"),
+                                (number.place([1, -2e-14]), "(1, 0)"), (words.at_most(0.01006), "0.011"), (words.interval(-0.5, 6.6e-14), "-0.5 ± 1e-12")):
+            self.assertEqual(shown, expected)
+        run = solve(*PUNCH)
+        shown = words.digits(run.summary["largest_displacement"]["value"], report.Teller(run).number.n)
+        self.assertIn(f"Largest displacement:</b> {shown}", page_of(run)[0])
+
+    def test_singular_corners_are_all_named_or_counted(self):
+        self.assertRegex(page_of(solve("two feet"))[0], r"it is unbounded at \(2, 0\), \(8, 0\)")
+        peaks = [{"at": [k, 0], "beyond": 0.1} for k in range(9)]
+        self.assertIn("(5, 0) and 3 places more", report.Teller(solve("two feet")).of_peaks("it", peaks, None))
+
+    def test_the_largest_stress_is_away_from_all_of_them(self):
+        peaks = [{"at": [0, 0], "beyond": 1, "largest": 9., "largest_at": [3., 0]}, {"at": [3, 0], "beyond": 1, "largest": 8., "largest_at": [0., 0.5]}]
+        x = np.array([[0, 0.5], [3, 0], [1.5, 0], [1.6, 0]])
+        value, place = report.beyond(x, np.array([8., 9, 2, 3]), peaks)
+        self.assertEqual((value, list(place)), (3, [1.6, 0]))
+
+    def test_a_largest_pressure_where_forces_cancel(self):
+        run = solve("press-ring", *FEW)
+        contact = run.summary["contact"]["outer"]
+        self.assertLess(max(map(abs, contact["force"])), 1e-9 * contact["largest_pressure"])
+        self.assertIn(f"pressure up to {report.Teller(run).number(contact['largest_pressure'])} N/mm²", page_of(run)[0])
+
+    def test_degrees_are_whole(self):
+        run = solve(*PUNCH)
+        axes, _ = drawn(plot.mesh, run)
+        bar, = [one for one in axes.figure.axes if one is not axes]
+        ticks = [text.get_text() for text in bar.get_xticklabels() + bar.get_yticklabels() if text.get_text()]
+        self.assertEqual([float(tick) for tick in ticks], list(range(run.mesh.degrees.min(), run.mesh.degrees.max() + 1)))
+        table = report.Teller(run).steps()
+        for row in table.rows:
+            if row[0] != "…":
+                self.assertTrue(row[table.head.index("p from")].isdigit() and row[table.head.index("to")].isdigit())
+
+    def test_load_steps_are_in_one_chart(self):
+        run = solve(*LOOP)
+        axes, _ = drawn(plot.load_steps, run, "bottom", "friction")
+        last = axes.lines[-1].get_ydata()
+        np.testing.assert_array_equal(last[np.isfinite(last)], run.contact["tangential_traction"])
+        self.assertEqual([line.get_label() for line in axes.lines], [str(k) for k in range(1, 7)])
+
+    def test_probes_are_read_by_their_own_columns(self):
+        """Of two that are called as columns begin."""
+        run = solve("two feet")
+        own = run.probes()
+        self.assertEqual(set(own), {"normal", "p"})
+        self.assertEqual(own["p"]["ux"][0], run.summary["final"]["p_ux"])
+        self.assertEqual(set(own["normal"]), {"ux", "uy", "s1", "s2", "szz", "mises"})
 
     def test_what_is_missing_is_said(self):
-        run = self.solve("han-6-12", "Adaptivity/Maximum steps=2", "Output/VTU=false", "Output/Contact tables=false")
-        text, _ = self.page_of(run)
+        text, _ = page_of(solve("han-6-12", "Adaptivity/Maximum steps=2", "Output/VTU=false", "Output/Contact tables=false"))
         for expected in ("set Output/VTU = true", "set Output/Contact tables = true", "there is no scene.json"):
             self.assertIn(expected, text)
 

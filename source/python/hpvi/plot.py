@@ -7,6 +7,7 @@ know besides: remarks, a text each.
 
 Colours are those of Okabe and Ito, which the colour-blind tell apart; lines differ by dashes as well.
 """
+import itertools
 import math
 
 import numpy as np
@@ -155,7 +156,8 @@ def frame(axes, result, x):
     margin = 0.05 * (high - low).max()
     axes.set(aspect="equal", xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin),
              xlabel=label("x", result.length_unit, "length"), ylabel=label("y", result.length_unit, "length"))
-    axes.locator_params(nbins=5)
+    for axis, share in zip("xy", (high - low) / (high - low).max()):
+        axes.locator_params(axis=axis, nbins=int(np.clip(10 * share, 1, 5)))
 
 
 def normals(line):
@@ -236,9 +238,11 @@ def mesh(result, axes, is_moved=False, window=None):
     is_wide = np.ptp(axes.get_ylim()) < 0.7 * np.ptp(axes.get_xlim())
     axes.figure.colorbar(drawn, ax=axes, ticks=levels[:-1], label="polynomial degree", location="bottom" if is_wide else "right", aspect=25, shrink=0.8)
     width = axes.get_position().width * axes.figure.get_figwidth() * 72 / max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
-    for cell, p in zip(x, degrees):
-        if width * min(np.ptp(cell[..., 0]), np.ptp(cell[..., 1])) > 11:
-            axes.text(*cell[PER_CELL // 2, PER_CELL // 2], str(p), ha="center", va="center", fontsize=8, color="black" if p < 6 else "white", clip_on=True)
+    m = PER_CELL // 2
+    across = np.minimum(np.hypot(*(x[:, 0, m] - x[:, -1, m]).T), np.hypot(*(x[:, m, 0] - x[:, m, -1]).T))
+    for cell, p, size in zip(x, degrees, across):
+        if width * size > 11:
+            axes.text(*cell[m, m], str(p), ha="center", va="center", fontsize=8, color="black" if p < 6 else "white", clip_on=True)
     axes.set_title(f"mesh, {len(x)} cells" + (f", displacement {scale:g} times" if is_moved else ""))
     return ["the mesh of the last step with the polynomial degrees of its cells"]
 
@@ -392,9 +396,9 @@ def several_contacts(result, axes, every):
     """Pressures in one colour each, friction dashed."""
     remarks = []
     bounds = []
-    for k, line in enumerate(every):
-        axes.plot(line.broken(line.s), line.broken(line.pressure), "-", color=f"C{k}", label=f"pressure, {line.title}")
-        axes.plot(line.broken(line.s), line.broken(line["tangential_traction"]), "--", color=f"C{k}", label=f"friction, {line.title}")
+    for line, colour in zip(every, itertools.cycle((BLUE, ORANGE, BLACK, GREEN, GREY))):
+        axes.plot(line.broken(line.s), line.broken(line.pressure), "-", color=colour, label=f"pressure, {line.title}")
+        axes.plot(line.broken(line.s), line.broken(line["tangential_traction"]), "--", color=colour, label=f"friction, {line.title}")
         bounds += [sign * usual((sign * values).clip(0), line.weights(), 0.97, 1.5) for values in (line.pressure, line["tangential_traction"]) for sign in (1, -1)]
     low, high = min(bounds), max(bounds)
     if low < high:
@@ -432,7 +436,8 @@ def cut(axes, line, values, window, unit):
                 axes.plot([line.s[worst]], [end], marker="^" if sign > 0 else "v", color=ORANGE, clip_on=False, zorder=5, markersize=6, linestyle="none")
                 below = written[sign, is_right] = written.get((sign, is_right), -1) + 1  # one under the other
                 axes.annotate(f"{name} {digits(v[worst], 3)}", (line.s[worst], end), (-7 if is_right else 7, -sign * (2 + 11 * below)), textcoords="offset points", color=ORANGE,
-                              ha="right" if is_right else "left", va="top" if sign > 0 else "bottom", annotation_clip=False)
+                              ha="right" if is_right else "left", va="top" if sign > 0 else "bottom", annotation_clip=False, zorder=4,
+                              bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3})
                 remarks.append(f"beyond the axis: {name} up to {digits(v[worst], 3)} {unit}".rstrip() + f" at ({line.x[worst][0]:.4g}, {line.x[worst][1]:.4g})")
     return remarks
 

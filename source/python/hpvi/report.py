@@ -16,7 +16,7 @@ from . import plot, results, words
 from .results import Run, RunError, von_mises
 
 MOST_CONTACTS = 4  # of more charts nobody would see any
-FIRST_STEPS, LAST_STEPS = 2, 12  # of a long table
+FIRST_STEPS, LAST_STEPS = 2, 9  # of a long table
 
 # Columns of the table of steps: name, head, digits.
 STEPS = (("step", "step", 9), ("load_step", "load step", 9), ("t", "t", 4), ("elements", "elements", 9), ("dofs_free", "free unknowns", 9),
@@ -324,7 +324,7 @@ class Teller:
             return "Of scenes in space there is no picture."
         if not self.run.scene:
             return "No picture of the scene: there is no scene.json; hpvi --report writes it."
-        return self.attempt(plot.scene, self.run.scene, is_brief=True, size=(4.8, min(5., 1.4 + self.height())))
+        return self.attempt(plot.scene, self.run.scene, is_brief=True, size=(4.6, min(5., 1.4 + self.height())))
 
     def charts(self):
         run, charts = self.run, []
@@ -384,7 +384,7 @@ class Teller:
                 value, half = float(forces[name][k]), float(forces[f"{name}_bound"][k])
                 row.append("" if math.isnan(value) else self.number(value, half=half if math.isfinite(half) else None, largest=size[name]))
             rows.append(row)
-        note = f"Forces{bracket(run.force_unit)} and moments{bracket(run.moment_unit)} on the body; ±: intervals, {self.word()}."
+        note = f"Forces{bracket(run.force_unit)} and moments{bracket(run.moment_unit)} on the body" + (f"; ±: intervals, {self.word()}." if "±" in str(rows) else ".")
         if self.summary.get("no_intervals"):
             note += f" Without an interval: {self.summary['no_intervals']}."
         return Table(["boundary", "kind"] + columns, rows, note=note)

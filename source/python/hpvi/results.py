@@ -106,9 +106,9 @@ def lagrange(nodes, points):
 
 
 def at_points(values, dimension, n):
-    """Of cells (cells, nodes, components) with equidistant nodes, x fastest, at n points a direction: (cells, n, n[, n], components)."""
+    """Of cells (cells, nodes, components) with equidistant nodes, x fastest, at n points a direction, x first: (cells, n, n[, n], components)."""
     side = round(values.shape[1] ** (1 / dimension))
-    cells = values.reshape([-1] + [side] * dimension + [values.shape[2]])
+    cells = values.reshape([-1] + [side] * dimension + [values.shape[2]]).transpose([0, *range(dimension, 0, -1), dimension + 1])
     for axis in range(1, dimension + 1):
         cells = np.moveaxis(np.tensordot(lagrange(side, n), cells, (1, axis)), 0, axis)
     return cells
@@ -131,6 +131,39 @@ def usual(values, weights, share=0.995, beyond=1.3):
 def label(name, unit, kind):
     """Of an axis. A scene that names no unit has its own."""
     return f"{name} [{unit or 'unit of ' + kind}]"
+
+
+def vtk(result, n=5):
+    """A vtkUnstructuredGrid: displacement, stress and von_mises at n points a direction of each cell, small straight cells between them, and the degree of the
+    cell that each is of."""
+    try:
+        from vtkmodules.util.numpy_support import numpy_to_vtk
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_QUAD, vtkCellArray, vtkUnstructuredGrid
+    except ImportError:
+        raise ImportError("vtk() needs VTK; install python3-vtk9") from None
+    values, dim = result.grid(n), result.dimension
+    number = np.arange(values["x"].size // dim).reshape(values["x"].shape[:-1])
+    corners = [corner + end for end in ([()] if dim == 2 else [(0,), (1,)]) for corner in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    small = np.stack([number[(slice(None), *(slice(at, n - 1 + at) for at in corner))] for corner in corners], axis=-1).reshape(-1, len(corners))
+
+    def array(name, numbers):
+        made = numpy_to_vtk(np.ascontiguousarray(numbers), deep=True)
+        made.SetName(name)
+        return made
+
+    def in_space(vectors):
+        return np.pad(vectors.reshape(-1, dim), ((0, 0), (0, 3 - dim)))
+
+    points, cells, grid = vtkPoints(), vtkCellArray(), vtkUnstructuredGrid()
+    points.SetData(array("points", in_space(values["x"])))
+    cells.SetData(array("offsets", np.arange(len(small) + 1) * len(corners)), array("connectivity", small.ravel()))
+    grid.SetPoints(points)
+    grid.SetCells(VTK_QUAD if dim == 2 else VTK_HEXAHEDRON, cells)
+    for name, numbers in (("displacement", in_space(values["u"])), ("stress", values["stress"].reshape(-1, 9)), ("von_mises", von_mises(values["stress"]).ravel())):
+        grid.GetPointData().AddArray(array(name, numbers))
+    grid.GetCellData().AddArray(array("degree", np.repeat(result.mesh.degrees, (n - 1) ** dim)))
+    return grid
 
 
 # ------------------------------------------------------------------ contact
@@ -327,7 +360,7 @@ class Run:
         """vertices, a row each; cells by their first and last ones; degrees."""
         corners = self.by_cell("points", 2)[..., :self.dimension]
         n = len(corners)
-        order = [0, 1, 3, 2] if self.dimension == 2 else [0, 1, 3, 2, 4, 5, 7, 6]
+        order = [0, 2, 3, 1] if self.dimension == 2 else [0, 4, 6, 2, 1, 5, 7, 3]
         cells = np.arange(n * len(order)).reshape(n, -1)[:, order]
         return Mesh(corners.reshape(-1, self.dimension), cells, self.by_cells("degree").astype(int))
 

@@ -10,7 +10,7 @@ from .results import label, pretty
 from .words import digits
 
 GROUND, LOAD, SUPPORT, CONTACT, PROBE, GREY = "#222222", "#b8500a", "#0072b2", "#00704f", "#8a2be2", "#666666"
-MATERIALS = ("#e6edf5", "#f6d9a8", "#b5d6c3", "#d9c3e0", "#a9c4e6", "#efe98f", "#c9c9c9", "#f2bfb4")  # told apart by lightness as well
+MATERIALS = ("#e6edf5", "#f6d9a8", "#8fcbb0", "#dcc0ea", "#6f9bd1", "#e3da5c", "#a3a3a3", "#f0957f")  # whoever looks
 FONT, LINE = 8.5, 10.5  # points
 
 
