@@ -145,8 +145,11 @@ def corner_exponent(poisson):
     """Williams's exponent alpha of the displacement r^alpha in a right angle between a clamped and
     a free edge, in plane stress: 4 kappa sin^2(alpha pi/2) = (kappa + 1)^2 - 4 alpha^2."""
     kappa = (3 - poisson) / (1 + poisson)
-    alpha = np.linspace(0.1, 1, 1000001)
-    return alpha[np.argmax(4 * kappa * np.sin(alpha * math.pi / 2) ** 2 - (kappa + 1) ** 2 + 4 * alpha ** 2 >= 0)]
+    low, high = 0.1, 1.
+    for _ in range(60):
+        alpha = (low + high) / 2
+        low, high = (alpha, high) if 4 * kappa * math.sin(alpha * math.pi / 2) ** 2 < (kappa + 1) ** 2 - 4 * alpha * alpha else (low, alpha)
+    return alpha
 
 
 def rates_table(runs):
@@ -266,7 +269,7 @@ def draw_exponential(runs):
     axes.set(xlabel="N$^{1/3}$ of the free displacement unknowns [-]", ylabel=eta_label(runs[example.number]["hpa2"]),
              title="hp-adaptive method hpa2: exponential convergence")
     axes.grid(linewidth=0.4)
-    axes.legend(loc="lower left")
+    axes.legend(loc="upper right")
     save(figure, "exponential.svg")
 
 
@@ -296,6 +299,7 @@ def draw_zoom(example, one, figure_number, window, plot):
     """The cells near a transition."""
     figure, axes = plt.subplots(figsize=(8.6, 4.8), layout="constrained")
     plot.mesh(one, axes, window=(window, (0, 0.5)))
+    axes.set_title("")  # that of the whole mesh
     x, = [x for x in transitions(one) if window[0] < x < window[1]]
     axes.plot(x, -0.012 * (window[1] - window[0]), "^", color="#c4161c", markersize=7, clip_on=False, label=f"transition x = {x:.4f} {one.length_unit}")
     axes.legend(loc="lower right", bbox_to_anchor=(1, 1))
@@ -325,6 +329,7 @@ def draw_multiplier(example, one, plot):
     top.plot(x, line["multiplier"], ".-", color=plot.BLUE, linewidth=1, markersize=4)
     top.set(ylabel="multiplier λ [-]", ylim=(-1.15, 1.15), title=f"{example}, hpa2, step {one.n_steps}: {len(x)} multipliers, g = {g:g} {one.stress_unit}")
     right = top.twinx()
+    right.spines["right"].set_visible(True)
     right.set(ylim=(1.15 * g, -1.15 * g), ylabel=f"T$_t$ = −g λ [{one.stress_unit}]")
     bottom.plot(x, line["tangential_displacement"], ".-", color=plot.ORANGE, linewidth=1, markersize=4)
     bottom.set(ylabel=f"u$_t$ [{one.length_unit}]", xlabel=f"x [{one.length_unit}]", xlim=(0, round(x.max())))

@@ -584,6 +584,10 @@ for option in --inf-sup --validate --print-parameters; do
   refused "--picture draws the scene into a file" "$option writes none" "remove one" -- --picture $option "$scenes/base.prm"
 done
 refused "no scene" "name a parameter file" -- --picture
+mkdir "$scratch/drawn"
+echo mine >"$scratch/drawn/scene.json"
+refused "its scene.json would be overwritten" "it does not say that hpvi has made it" "--output" -- --picture --output "$scratch/drawn" "$scenes/base.prm"
+[ "$(cat "$scratch/drawn/scene.json")" = mine ] || complain "--picture beside a foreign scene.json" "the file was changed"
 refused "base.prm (--set): Material/Young's modulus = 0" -- --picture --set "Material/Young's modulus=0" "$scenes/base.prm"
 refused "no multiplier" "remove --inf-sup" -- --inf-sup --set "Boundary bottom/Friction bound=" "$scenes/base.prm"
 

@@ -83,6 +83,11 @@ def of_results(directory, status):
                 table(file)
             elif file.suffix in (".vtu", ".pvd", ".svg"):
                 ElementTree.parse(file)
+            elif file.name == "scene.json":
+                scene = json.loads(file.read_text(), parse_constant=no_constant)
+                edges = [edge for boundary in scene.get("boundaries", []) for edge in boundary["edges"]]
+                if any(edge[name] is not None and len(edge[name]) != len(edge["x"]) for edge in edges for name in ("gap", "traction", "displacement")):
+                    return "scene.json has values at other places"
             elif file.suffix == ".html" and not file.read_text().endswith("</html>\n"):
                 return f"{file.name} is cut"
             elif file.suffix not in (".html", ".json", ".prm", ".dat"):

@@ -9,7 +9,7 @@ import subprocess
 
 class Server:
     def __init__(self, program, library, environment, directory):
-        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=directory,
+        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=directory, bufsize=0,  # select() knows no buffer
                                         env={**environment, "OMP_NUM_THREADS": "1", "LD_PRELOAD": str(library)})
 
     def stop(self):

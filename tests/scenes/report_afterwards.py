@@ -34,8 +34,10 @@ class Afterwards(RunTest):
         self.afterwards()
         self.assertIn("report.html", self.names())
         self.assertNotIn("report.html", self.files())
+        (self.out / "report.pdf").write_text("%PDF\n% the run, told by hpvi\n")
         self.run_scene(*without)
-        self.assertNotIn("report.html", self.names())
+        for name in ("report.html", "report.pdf"):
+            self.assertNotIn(name, self.names())
 
     def test_a_killed_run_comes_first(self):
         self.end(self.stopped("Adaptivity/Maximum steps=9", rows=3))
@@ -66,6 +68,11 @@ class Afterwards(RunTest):
         self.run_scene("Adaptivity/Maximum steps=4")
         self.assertEqual(self.page(), "<!DOCTYPE html>mine")
         (self.out / "report.html").unlink()
+        (self.out / "report.pdf").write_text("%PDF mine")
+        self.refuse("--pdf", words=["report.pdf would be overwritten", "move that file away"])
+        self.afterwards()
+        self.assertEqual((self.out / "report.pdf").read_text(), "%PDF mine")
+        (self.out / "report.pdf").unlink()
         lock = os.open(self.out, os.O_RDONLY)
         fcntl.flock(lock, fcntl.LOCK_EX)
         self.refuse(words=["another run of hpvi", "wait until that run is over"])

@@ -243,7 +243,7 @@ def mesh(result, axes, is_moved=False, window=None):
     for cell, p, size in zip(x, degrees, across):
         if width * size > 11:
             axes.text(*cell[m, m], str(p), ha="center", va="center", fontsize=8, color="black" if p < 6 else "white", clip_on=True)
-    axes.set_title(f"mesh, {len(x)} cells" + (f", displacement {scale:g} times" if is_moved else ""))
+    axes.set_title(f"mesh, {len(x)} cells" + (f", displacement {scale:g} times" if scale > 1 else ""))
     return ["the mesh of the last step with the polynomial degrees of its cells"]
 
 

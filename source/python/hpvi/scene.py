@@ -105,7 +105,8 @@ class Sheet:
     def note(self, place, outward, lines, gid=None):
         """lines: (words, colour, is bold), broken where they are long."""
         lines = [(part, colour, is_bold) for words, colour, is_bold in lines for part in textwrap.wrap(words, 20 if self.is_brief else 32) or [""]]
-        self.notes.append((np.asarray(place, float), np.asarray(outward, float), lines, gid, extents(lines)))
+        if lines:
+            self.notes.append((np.asarray(place, float), np.asarray(outward, float), lines, gid, extents(lines)))
 
 
 # ------------------------------------------------------------------ marks: each begins `band` outside of the body and returns where it ends
@@ -230,8 +231,9 @@ def draw_vectors(sheet, boundary, part, band, name, colour, largest):
 
 def words_of(sheet, boundary):
     loads = [(words, LOAD, False) for words in boundary["loads"]]
-    if sheet.is_brief:
-        return [(boundary["name"], "black", True)] + loads
+    if sheet.is_brief:  # of many boundaries those that are free have no room
+        is_free = not (boundary["supports"] or boundary["contacts"] or loads or boundary["pair"])
+        return [] if is_free and len(sheet.scene["boundaries"]) > 8 else [(boundary["name"], "black", True)] + loads
     lines = [(boundary["name"] + (f"  (curves {boundary['curves']})" if boundary["curves"] else ""), "black", True)]
     lines += [(words, SUPPORT, False) for words in boundary["supports"]] + [(words, CONTACT, False) for words in boundary["contacts"]]
     if (times := gap_scale(sheet, boundary)) != 1:
