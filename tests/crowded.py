@@ -29,7 +29,7 @@ def crowded(figure, is_on_page=False):
     boxes = [(text, text.get_window_extent(renderer)) for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip() and text not in unseen]
     found = []
     if is_on_page:
-        scale = NARROW / figure.get_tightbbox(renderer).width / 72
+        scale = min(96, NARROW / figure.get_tightbbox(renderer).width) / 72  # no picture is enlarged
         found += [f"{text.get_text()!r} has {text.get_fontsize() * scale:.1f} pixels" for text, _ in boxes if text.get_fontsize() * scale < LEAST]
     for k, (text, box) in enumerate(boxes):
         # A box is that of the highest letters that there are.
