@@ -14,6 +14,7 @@ import pathlib
 import subprocess
 import sys
 import time
+from collections import namedtuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -33,31 +34,24 @@ TABLE_2 = """4; 7; 13; 22; 37; 57 1; 78 7; 104 20; 135 40; 161 63 2; 171 94 11 4
 167 173 45 14 1; 189 211 74 24 4; 170 254 116 33 7"""
 
 
-class Example:
-    """One of the two problems, and the thesis's numbers for it."""
-
-    def __init__(self, number, scene, rates, beta, condition, table, zooms, figures, corners):
-        self.number, self.scene = number, HERE.parent / "prm" / scene
-        self.rates, self.beta, self.condition = rates, beta, condition
-        self.table = [[int(n) for n in row.split()] for row in table.split(";")]
-        self.zooms = zooms  # figure number -> interval of x; y from 0 to 0.5
-        self.error_figure, self.mesh_figure, self.multiplier_figure = figures
-        self.corners = corners  # where the clamp meets a free or loaded edge
-
-    def __str__(self):
-        return f"Example {self.number}"
+Example = namedtuple("Example", "number scene rates beta condition table zooms error_figure mesh_figure multiplier_figure corners")
+# zooms: figure number -> interval of x; y from 0 to 0.5; corners: where the clamp meets a free or loaded edge
+Example.__str__ = lambda example: f"Example {example.number}"
 
 
 def rates(hup, hap2, hap3, hap4, pu):
     return dict(hup2=hup, hup3=hup, hup4=hup, hap2=hap2, hap3=hap3, hap4=hap4, pu=pu)
 
 
+def counts(table):
+    return [[int(n) for n in row.split()] for row in table.split(";")]
+
+
 EXAMPLES = [
-    Example("5.2", "han-6-12.prm", rates(0.45, 0.6, 0.9, 1.5, 0.35), 0.3476,
-            (22690, 5.5e8, 2.7e3), TABLE_1, {"5.4": (0.5, 1.5)}, ("5.1", "5.2", "5.3"), [(4, 4)]),
-    Example("5.3", "han-6-13.prm", rates(0.38, 0.6, 0.95, 1.6, 0.3), 0.3167,
-            (19045, 5.3e7, 1.2e3), TABLE_2, {"5.8": (1.25, 2.5), "5.9": (6.875, 8.125)},
-            ("5.5", "5.6", "5.7"), [(0, 2), (10, 2)]),
+    Example("5.2", HERE.parent / "prm/han-6-12.prm", rates(0.45, 0.6, 0.9, 1.5, 0.35), 0.3476, (22690, 5.5e8, 2.7e3), counts(TABLE_1),
+            {"5.4": (0.5, 1.5)}, "5.1", "5.2", "5.3", [(4, 4)]),
+    Example("5.3", HERE.parent / "prm/han-6-13.prm", rates(0.38, 0.6, 0.95, 1.6, 0.3), 0.3167, (19045, 5.3e7, 1.2e3), counts(TABLE_2),
+            {"5.8": (1.25, 2.5), "5.9": (6.875, 8.125)}, "5.5", "5.6", "5.7", [(0, 2), (10, 2)]),
 ]
 
 # families share a line style

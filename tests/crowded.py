@@ -38,13 +38,13 @@ def crowded(figure, is_on_page=False):
 
 
 @contextlib.contextmanager
-def watched():
+def watched(is_on_page=True):
     """A list that gets the lines of each figure that is saved meanwhile."""
     found, save = [], Figure.savefig
 
     def savefig(figure, *arguments, **options):
         save(figure, *arguments, **options)
-        found.extend(f"{figure.axes[0].get_title()!r}: {line}" for line in crowded(figure, True))
+        found.extend(f"{figure.axes[0].get_title()!r}: {line}" for line in crowded(figure, is_on_page))
 
     Figure.savefig = savefig
     try:

@@ -7,6 +7,7 @@ know besides: remarks, a text each.
 
 Colours are those of Okabe and Ito, which the colour-blind tell apart; lines differ by dashes as well.
 """
+import io
 import itertools
 import math
 
@@ -37,6 +38,19 @@ def figure(width=4.6, height=3.2):
     with pyplot.rc_context(STYLE):
         made, axes = pyplot.subplots(figsize=(width, height), layout="constrained")
     return made, axes
+
+
+def svg(function, *arguments, size=(4.6, 3.3), **options):
+    """What a function of this module draws, as text, and its remarks. Equal pictures are equal texts."""
+    pyplot, file = drawing_library(), io.StringIO()
+    with pyplot.rc_context(STYLE):
+        made, axes = figure(*size)
+        try:
+            remarks = function(*arguments[:1], axes, *arguments[1:], **options)
+            made.savefig(file, format="svg", dpi=150, bbox_inches="tight", pad_inches=0.05, metadata={"Date": None, "Creator": None})
+        finally:
+            pyplot.close(made)
+    return file.getvalue(), remarks
 
 
 def drawing_library():
@@ -88,6 +102,12 @@ def round_scale(displacement, x):
     return max(1., digits * np.floor(size / (12 * largest) / digits))
 
 
+def in_words(scale, end=""):
+    """Title and remark of a deformed body."""
+    return (("deformed body" if scale == 1 else f"displacement {scale:g} times") + end,
+            f"von Mises stress on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}{end}")
+
+
 def edges(x):
     """Of cells (cells, n, n, ...) their four edges: (4, cells, n, ...)."""
     return np.stack([x[:, 0], x[:, -1], x[:, :, 0], x[:, :, -1]])
@@ -134,21 +154,18 @@ def body(result, axes, scale=None):
     axes.add_collection(LineCollection(outline(x), colors=GREY, linewidths=0.8, linestyles="dashed", zorder=0.5))
     present = draw_states(result, axes, scale)
     frame(axes, result, moved if scale == 1 else np.concatenate([moved, x]))
-    axes.set_title("deformed body" if scale == 1 else f"displacement {scale:g} times")
+    title, remark = in_words(scale)
+    axes.set_title(title)
     bar(axes, colours, label("von Mises stress", result.stress_unit, "stress"), stress.max() > limit)
     key_of_states(axes, present)
-    remarks = [f"von Mises stress on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}; dashed: the body at rest"]
-    return remarks + (["the thick line: state of contact"] if present else [])
+    return [f"{remark}; dashed: the body at rest"] + (["the thick line: state of contact"] if present else [])
 
 
-def bar(axes, colours, words, is_cut):
+def bar(axes, colours, words, is_cut=False, ticks=None):
     """Below wide pictures, beside tall ones."""
-    ratio = np.ptp(axes.get_ylim()) / np.ptp(axes.get_xlim())
-    is_wide = ratio < 0.7
-    made = axes.figure.colorbar(colours, ax=axes, label=words, extend="max" if is_cut else "neither", location="bottom" if is_wide else "right",
-                                aspect=30, shrink=0.9, pad=0.03)
-    made.locator = drawing_library().MaxNLocator(5)
-    made.update_ticks()
+    is_wide = np.ptp(axes.get_ylim()) < 0.7 * np.ptp(axes.get_xlim())
+    axes.figure.colorbar(colours, ax=axes, label=words, extend="max" if is_cut else "neither", location="bottom" if is_wide else "right",
+                         aspect=30, shrink=0.9, pad=0.03, ticks=drawing_library().MaxNLocator(5) if ticks is None else ticks)
 
 
 def frame(axes, result, x):
@@ -235,8 +252,7 @@ def mesh(result, axes, is_moved=False, window=None):
     frame(axes, result, x)
     if window:
         axes.set(xlim=window[0], ylim=window[1])
-    is_wide = np.ptp(axes.get_ylim()) < 0.7 * np.ptp(axes.get_xlim())
-    axes.figure.colorbar(drawn, ax=axes, ticks=levels[:-1], label="polynomial degree", location="bottom" if is_wide else "right", aspect=25, shrink=0.8)
+    bar(axes, drawn, "polynomial degree", ticks=levels[:-1])
     width = axes.get_position().width * axes.figure.get_figwidth() * 72 / max(np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim()))
     m = PER_CELL // 2
     across = np.minimum(np.hypot(*(x[:, 0, m] - x[:, -1, m]).T), np.hypot(*(x[:, m, 0] - x[:, m, -1]).T))
@@ -291,9 +307,10 @@ def body_in_space(result, axes, scale=None):
     axes.set_aspect("equal")
     axes.set_axis_off()
     name_edges(axes, x, quads.reshape(-1, 2))
-    axes.set_title("deformed body, seen from below" if scale == 1 else f"displacement {scale:g} times, seen from below")
+    title, remark = in_words(scale, ", seen from below")
+    axes.set_title(title)
     bar(axes, surface, label("von Mises stress", result.stress_unit, "stress"), values.max() > limit)
-    return [f"von Mises stress on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}, seen from below"]
+    return [remark]
 
 
 def name_edges(axes, x, drawn):
@@ -333,8 +350,8 @@ def surface(result, axes, name=None, what="pressure"):
         pressure = -columns["normal_traction"]
         limit = usual(pressure, np.ones(len(pressure)))
         points = axes.scatter(*place, s=size, c=pressure, cmap="viridis", vmin=min(0, pressure.min()), vmax=limit or 1, marker="s", linewidths=0, rasterized=len(x) > 2000)
-        axes.figure.colorbar(points, ax=axes, label=label("pressure", result.stress_unit, "stress"), extend="max" if pressure.max() > limit else "neither",
-                             location="bottom", aspect=25)
+        axes.set_aspect("equal")
+        bar(axes, points, label("pressure", result.stress_unit, "stress"), pressure.max() > limit)
         axes.set_title("pressure")
     axes.set(aspect="equal", xlabel=label("xyz"[first], result.length_unit, "length"), ylabel=label("xyz"[second], result.length_unit, "length"))
     axes.locator_params(nbins=5)
@@ -547,14 +564,16 @@ def loops(result):
     return found
 
 
+def of_energies(result, axes, words, name, title):
+    axes.set(xlabel=words, ylabel=label(name, results.unit_of_load(result.stress_unit, result.length_unit, True), "energy"), title=title)
+    axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+
+
 def energies(result, axes):
     """Work of the loads, what is stored, and what friction dissipates, over the load steps."""
-    table = result.loading
     for column, words, colour, style in (("work", "work", BLACK, "-"), ("stored_energy", "stored", BLUE, "--"), ("dissipated_energy", "dissipated", ORANGE, ":")):
-        axes.plot(table["load_step"], table[column], style, color=colour, label=words)
-    moment = results.unit_of_load(result.stress_unit, result.length_unit, True)
-    axes.set(xlabel="load step", ylabel=label("energy", moment, "energy"), title="energies")
-    axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+        axes.plot(result.loading["load_step"], result.loading[column], style, color=colour, label=words)
+    of_energies(result, axes, "load step", "energy", "energies")
     axes.legend(**BELOW, ncol=3)
     return ["work of the loads, and what became of it"]
 
@@ -562,9 +581,7 @@ def energies(result, axes):
 def cycles(result, axes):
     """What friction dissipates in each cycle."""
     axes.plot(result.cycles["cycle"], result.cycles["dissipated_energy"], "o-", color=ORANGE)
-    moment = results.unit_of_load(result.stress_unit, result.length_unit, True)
-    axes.set(xlabel="cycle", ylabel=label("dissipated energy", moment, "energy"), title="cycles")
-    axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+    of_energies(result, axes, "cycle", "dissipated energy", "cycles")
     return ["what friction dissipates in each cycle"]
 
 

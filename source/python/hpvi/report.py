@@ -6,7 +6,6 @@
 Needs python3-matplotlib and python3-jinja2, and weasyprint for the PDF.
 """
 import base64
-import io
 import math
 import pathlib
 
@@ -71,19 +70,11 @@ class Table:
         self.title, self.note = title, note
 
 
-def picture(function, *arguments, size=(4.6, 3.3), **options):
+def picture(function, *arguments, **options):
     """What a function of hpvi.plot draws. Its remarks are the caption."""
-    pyplot = plot.drawing_library()
-    with pyplot.rc_context(plot.STYLE):
-        figure, axes = plot.figure(*size)
-        try:
-            remarks = function(*arguments[:1], axes, *arguments[1:], **options)
-            file = io.BytesIO()
-            figure.savefig(file, format="svg", dpi=150, bbox_inches="tight", pad_inches=0.03, metadata={"Date": None, "Creator": None})
-        finally:
-            pyplot.close(figure)
+    text, remarks = plot.svg(function, *arguments, **options)
     caption = "; ".join(remarks)
-    return dict(svg=base64.b64encode(file.getvalue()).decode(), caption=caption[:1].upper() + caption[1:])
+    return dict(svg=base64.b64encode(text.encode()).decode(), caption=caption[:1].upper() + caption[1:])
 
 
 class Teller:
@@ -252,12 +243,11 @@ class Teller:
         return self.of_peaks("pressure", peaks, self.pressure_beyond(name, peaks))
 
     def pressure_beyond(self, name, peaks):
-        columns = self.run.contact
-        rows = next((rows for title, rows in results.contacts(columns).items() if title == name or name.endswith(f"({title})")), []) if columns else []
-        if not len(rows):
-            return beyond(np.zeros((0, self.run.dimension)), np.zeros(0), peaks)
-        x = np.stack([columns[axis][rows] for axis in "xyz" if axis in columns], axis=1)
-        return beyond(x, -columns["normal_traction"][rows], peaks)
+        for title, rows in results.contacts(self.run.contact).items():
+            if title == name or name.endswith(f"({title})"):
+                own = results.where(self.run.contact, rows)
+                return beyond(np.stack([own[axis] for axis in "xyz" if axis in own], axis=1), -own["normal_traction"], peaks)
+        return beyond(np.zeros((0, self.run.dimension)), np.zeros(0), peaks)
 
     def of_stress(self, stress):
         peaks = stress.get("unbounded") or []

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What a scene says, as a picture: of scene.json, which `hpvi --picture SCENE.prm` and `hpvi --report DIR` write."""
-import io
 import math
 import textwrap
 
@@ -401,7 +400,8 @@ def scene(data, axes, is_brief=False):
     draw_probes(sheet)
     key_of_materials(axes, data["materials"])
     axes.set(aspect="equal", xlim=(sheet.low[0], sheet.high[0]), ylim=(sheet.low[1], sheet.high[1]), xlabel=label("x", length, "length"), ylabel=label("y", length, "length"))
-    axes.set_title("" if is_brief else data["title"], parse_math=False)
+    at_the_end = ", at the end of its load history, t = 1" if data["history"] else ""
+    axes.set_title("" if is_brief else data["title"] + at_the_end, parse_math=False)
     axes.locator_params(nbins=5)
     room = np.zeros(2)
     for _ in range(3):  # limits change what is beside the axes, and that changes the room
@@ -416,7 +416,7 @@ def scene(data, axes, is_brief=False):
             axes.figure.set_size_inches(inches + ((high - low) / scale - room).clip(0) / 72)
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     write_notes(sheet, placed, scale)
-    return ["what the scene says" + (", at the end of its load history, t = 1" if data["history"] else "")]
+    return ["what the scene says" + at_the_end]
 
 
 def key_of_materials(axes, materials):
@@ -434,16 +434,5 @@ def scene_svg(data):
     """A picture of its own as SVG, with its title: what `hpvi --picture` writes."""
     from . import plot
     size = np.ptp(np.concatenate([cell["outline"] for cell in data.get("cells") or [{"outline": [[0, 0], [1, 1]]}]]), axis=0)
-    pyplot = plot.drawing_library()
-    with pyplot.rc_context(plot.STYLE):
-        figure, axes = plot.figure(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8)))
-        try:
-            remarks = scene(data, axes)
-            if data["history"]:
-                figure.text(0.5, 0, remarks[0], ha="center", va="top", fontsize=9)
-            file = io.StringIO()
-            figure.savefig(file, format="svg", bbox_inches="tight", pad_inches=0.08, metadata={"Date": None, "Creator": None})
-        finally:
-            pyplot.close(figure)
-    text = file.getvalue()
+    text, _ = plot.svg(scene, data, size=(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8))))
     return "<!-- the scene, drawn by hpvi -->\n" + text[text.index("<svg"):]
