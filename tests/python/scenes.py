@@ -20,6 +20,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from crowded import crowded  # noqa: E402
 from hpvi import plot  # noqa: E402
+from hpvi.scene import parts_of  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BAR = {"Geometry/Upper corner": (2, 1), "Boundary left/Displacement": "0; free", "Boundary bottom/Displacement": "free; 0", "Boundary right/Traction": (3, 0)}
@@ -96,6 +97,26 @@ class Scenes(unittest.TestCase):
         drawn = self.draw("slope")
         (_, vector), = drawn.arrows("body force")
         self.assertTrue(vector[0] == 0 and vector[1] < 0)
+
+    def test_edges_are_joined_up_to_corners(self):
+        edges = [edge for boundary in self.draw("han-6-12").data["boundaries"] for edge in boundary["edges"]]
+        self.assertEqual(len(edges), 16)
+        plain = [{**edge, "gap": None, "traction": None, "displacement": None} for edge in edges]
+        np.testing.assert_allclose([part.s[-1] for part in parts_of(plain)], [4, 4, 4, 4], rtol=1e-13)  # sums of 100 lengths
+        ring = [boundary for boundary in self.draw("press-ring").data["boundaries"] if boundary["name"] == "outer"]
+        part, = parts_of(ring[0]["edges"])
+        self.assertEqual(len(part.x), len(part.data["gap"]))
+        self.assertTrue((part.x[0] == part.x[-1]).all() and (np.diff(part.s) > 0).all())
+
+    def test_labels_have_room(self):
+        """The body is smaller, not the figure larger, where that is enough; a page leaves out what is free of many boundaries."""
+        for name in ("han-6-12", "punch-plate", "bracket"):
+            self.assertEqual(list(self.draw(name).figure.get_size_inches()), [6, 5])
+        scene = hpvi.Scene(ROOT / "prm/bolted-flange.prm")
+        _, axes = plot.figure(4.6, 5)
+        plot.scene(json.loads(scene.json()), axes, is_brief=True)
+        words = {text.get_text() for text in axes.texts}
+        self.assertTrue({"bolt.left", "edge", "flange.bottom"} <= words and not {"flange.right", "head.top"} & words)
 
     def test_a_history_is_drawn_at_its_end(self):
         drawn = self.draw(**{"Loading/Steps": 4, "Boundary right/Traction": "8*t^3; 0"})

@@ -134,6 +134,17 @@ class Charts(unittest.TestCase):
                 self.assertIn("mesh of the last step", text)
                 self.assertEqual(crowded, [])
 
+    def test_points_of_cells_count_x_first(self):
+        """And corners go counterclockwise, as those of a Result."""
+        for name, d in (("han-6-12", 2), ("slab", 3)):
+            run = solve(name, "Adaptivity/Maximum steps=2")
+            x = run.grid(3)["x"]
+            for axis in range(d):
+                self.assertTrue((np.diff(x, axis=1 + axis)[..., axis] > 0).all())
+            corners = run.mesh.vertices[run.mesh.cells[:, :4]]
+            one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+            self.assertTrue((one[:, 0] * two[:, 1] > one[:, 1] * two[:, 0]).all())
+
     def test_loads_over_displacements(self):
         run = solve(*LOOP)
         (boundary, component), = plot.loops(run)
