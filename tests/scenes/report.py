@@ -188,6 +188,10 @@ class Page(unittest.TestCase):
         for run, words_of_error in ((solve(*PUNCH), "at most .* % of the solution, guaranteed"), (solve("slab", "Adaptivity/Maximum steps=2"), "about .* % .*, estimated by")):
             self.assertRegex(page_of(run)[0].split("<p")[1], words_of_error)
 
+    def test_intervals_are_named_where_there_are_some(self):
+        self.assertIn("±: intervals, guaranteed", page_of(solve(*PUNCH))[0])
+        self.assertNotIn("±", page_of(solve("slab", "Adaptivity/Maximum steps=2"))[0])
+
     def test_done_is_said_once_and_not_where_a_tolerance_is_missed(self):
         text, _ = page_of(solve(*PUNCH))
         self.assertRegex(text, r"Done: stopped by Maximum steps of Adaptivity")
