@@ -90,8 +90,7 @@ blocks "Contact joint/Slave" "none of the two sides" -- "Contact joint/Slave=low
 blocks "Contact joint/Closed within" "more than 1 %" -- "Contact joint/Closed within=0.5"
 blocks "Contact joint/Law" "needs bodies that touch" -- "Contact joint/Law=tied" "Body high/Lower corner=0, 1.1, 0"
 blocks "Contact joint/Friction bound" "means nothing where bodies are tied" -- "Contact joint/Law=tied" "Contact joint/Friction bound=1"
-blocks "Body high" "leave a rigid-body motion free" "tie it to a body that is held" -- "Boundary high.top/Displacement="
-blocks "Body high" "leave a rigid-body motion free" -- "Boundary high.top/Displacement=" "Contact joint/Law=bilateral"
+blocks "Body high" "leave a rigid-body motion free" "no friction resists it" "tie it to a body that is held" -- "Boundary high.top/Displacement=" "Contact joint/Law=bilateral"
 blocks "Boundary low.top/Traction" "Contact joint has all of this side" -- "Boundary low.top/Traction=0; 1; 0"
 
 # --- what is of the plane
