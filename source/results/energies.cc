@@ -112,9 +112,9 @@ public:
       Tensor<1, 3> value;
       for (unsigned int c = 0; c < 3; ++c)
         value[c] = u[c * table.points.size() + k];
-      slip.push_back(frame.tangential(value));
-      if (!face.condition->pair)
-        slip.back() -= field.past_slip(face, frame.x);
+      const Tensor<1, 3> past_opposite =
+          field.opposite(face, table.points[k]) - field.change_opposite(face, table.points[k]);
+      slip.push_back(frame.tangential(value - past_opposite) - field.past_slip(face, frame.x));
     }
   }
 
@@ -189,7 +189,7 @@ private:
   const Field<3> &field;
   const QGauss<1> &gauss;
   const std::vector<Polynomials::Polynomial<double>> &basis;
-  std::vector<Tensor<1, 3>> slip; ///< at nodes()
+  std::vector<Tensor<1, 3>> slip; ///< at nodes(), of the own side alone
 };
 
 double friction_work(const FieldFace<3> &face, const Field<3> &field, const double tolerance)

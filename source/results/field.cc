@@ -103,6 +103,12 @@ std::vector<ContactSegment<dim>> Field<dim>::segments(const FieldFace<dim> &) co
 }
 
 template <int dim>
+Tensor<1, dim> Field<dim>::change_opposite(const FieldFace<dim> &, const Point<dim> &) const
+{
+  return {};
+}
+
+template <int dim>
 std::vector<types::material_id> Field<dim>::materials_opposite(const FieldFace<dim> &face) const
 {
   std::vector<types::material_id> result;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -80,9 +81,12 @@ PrimalField<dim>::PrimalField(const Scene<dim> &scene, const PrimalSpace<dim> &s
     moment_tables.push_back(tabulate<dim>(space.tables.degree, table.points, table.weights, false));
   if (!space.opposite)
     return;
-  far = space.values_opposite(*this->u);
+  far = far_change = space.values_opposite(*this->u);
   if (space.past)
+  {
     past_far = space.values_opposite(*space.past);
+    std::transform(far.begin(), far.end(), past_far.begin(), far_change.begin(), std::minus<>());
+  }
   find_exerted();
 }
 
@@ -174,6 +178,13 @@ Tensor<1, dim> PrimalField<dim>::opposite(const FieldFace<dim> &face,
                                           const Point<dim> &reference) const
 {
   return displacement_opposite(face, face.map.point(reference), far);
+}
+
+template <int dim>
+Tensor<1, dim> PrimalField<dim>::change_opposite(const FieldFace<dim> &face,
+                                                 const Point<dim> &reference) const
+{
+  return displacement_opposite(face, face.map.point(reference), far_change);
 }
 
 template <int dim>

@@ -183,6 +183,10 @@ public:
   virtual dealii::Tensor<1, dim> opposite(const FieldFace<dim> &face,
                                           const dealii::Point<dim> &reference) const;
 
+  /** In space u' less that of the load step before [length]. */
+  virtual dealii::Tensor<1, dim> change_opposite(const FieldFace<dim> &face,
+                                                 const dealii::Point<dim> &reference) const;
+
   /** The materials of segments(), in space of what lies opposite on any process. */
   virtual std::vector<dealii::types::material_id>
   materials_opposite(const FieldFace<dim> &face) const;

@@ -30,6 +30,8 @@ public:
   Tangential<dim> past_slip(const FieldFace<dim> &face, const dealii::Point<dim> &x) const override;
   dealii::Tensor<1, dim> opposite(const FieldFace<dim> &face,
                                   const dealii::Point<dim> &reference) const override;
+  dealii::Tensor<1, dim> change_opposite(const FieldFace<dim> &face,
+                                         const dealii::Point<dim> &reference) const override;
   std::vector<dealii::types::material_id>
   materials_opposite(const FieldFace<dim> &face) const override;
   const std::vector<ExertedTraction<dim>> &exerted() const override;
@@ -59,7 +61,8 @@ private:
   std::vector<const ContactDofFace<dim> *>
       contact_dof_faces;                      ///< by face; null: it has no contact dofs
   std::vector<ShapeTable<dim>> moment_tables; ///< by number of a face of the unit cell
-  std::vector<double> far, past_far; ///< opposite to faces, now and in the load step before
+  std::vector<double> far, past_far,
+      far_change; ///< opposite to faces: now, in the load step before, less that
   std::vector<ExertedTraction<dim>> on_masters;
 };
 } // namespace hpvi
