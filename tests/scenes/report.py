@@ -257,6 +257,10 @@ class Page(unittest.TestCase):
         number = words.Numbers(1e-3, 4.)
         for shown in (number(1e-17, largest=5.), number(1e-13, half=4e-13, largest=5.), number.coordinate(-2e-14)):
             self.assertEqual(shown, "0")
+        self.assertEqual(number.vector((1e-8, -2e-8, 3.), "N"), "(0, 0, 3) N")
+        # Friction of a washer that nothing pushes along, in space.
+        contact = {"force": (1e-8, 1e4, -2e-8), "normal_resultant": -1e4, "friction_resultant": [1e-8, 0, -2e-8]}
+        self.assertIn("friction (0, 0, 0)", report.Teller(run).of_contact("feet", contact))
 
     def test_no_more_digits_than_are_certain(self):
         for error in (0.2, 0.03, 1e-3, 4e-5):

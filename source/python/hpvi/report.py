@@ -216,7 +216,7 @@ class Teller:
             half = float(row.get(f"{column}_bound", math.nan))
             half = half if math.isfinite(half) else None
             if isinstance(value, list):
-                parts.append(f"{what} {number.vector(value, run.force_unit)}")
+                parts.append(f"{what} {number.vector(value, run.force_unit, largest)}")
             elif value is not None:
                 parts.append(f"{what} {number(value, run.force_unit, half, largest)}{self.sure(half)}")
         if contact.get("through"):

@@ -80,7 +80,7 @@ class Numbers:
     def coordinate(self, x):
         return digits(0 if abs(x) <= 1e-6 * self.size else x, 5)
 
-    def vector(self, values, unit=""):
-        known = [abs(value) for value in values if value is not None]
-        parts = [self(value, largest=max(known, default=0)) for value in values if value is not None]
+    def vector(self, values, unit="", largest=0):
+        largest = max([largest, *(abs(value) for value in values if value is not None)])
+        parts = [self(value, largest=largest) for value in values if value is not None]
         return f"({', '.join(parts)}) {unit}".rstrip()
