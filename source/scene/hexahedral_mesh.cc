@@ -140,16 +140,16 @@ std::vector<Tensor<1, dim>> normals_at(const Side<dim> &side, const Point<dim> &
 {
   if constexpr (dim == 3)
   {
+    if (side.is_flat())
+      return {side.outward};
     std::vector<Tensor<1, 3>> result;
     for (const Side<3>::Piece &piece : side.pieces)
     {
-      const Tensor<1, 3> n = side.is_flat() ? side.outward : normal_of(piece);
+      const Tensor<1, 3> n = normal_of(piece);
       if (distance(piece, x) <= 1e-9 * std::sqrt(area_of(piece)) &&
           std::none_of(result.begin(), result.end(),
                        [&](const Tensor<1, 3> &known) { return (known - n).norm() < 1e-8; }))
         result.push_back(n);
-      if (side.is_flat() && !result.empty())
-        break;
     }
     return result;
   }

@@ -125,12 +125,15 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
   const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
                         const std::string &name)
   {
+    const bool varies = std::any_of(load.begin(), load.end(),
+                                    [](const Expression<dim> &component)
+                                    { return component && !is_constant<dim>(component); });
     std::array<unsigned int, dim> once, often;
     for (unsigned int d = 0; d < dim; ++d)
     {
       const unsigned int samples = face == whole_cell ? 24 : 48; // along a side of the body
       once[d] = 1;
-      often[d] = std::max(4U, samples / (n_gauss * scene.geometry.n_cells(d)));
+      often[d] = varies ? std::max(4U, samples / (n_gauss * scene.geometry.n_cells(d))) : 1;
     }
     Tensor<1, dim> coarse, fine;
     for_each_force<dim>(load, map, face, n_gauss, once,

@@ -50,7 +50,7 @@ void VertexSolver::number()
     DoFHandler<3>::active_cell_iterator(*cell, &dof_handler)->get_dof_indices(own);
     cell->get_dof_indices(of_mesh);
   };
-  IndexSet needed(dof_handler.n_dofs());
+  std::vector<Dof> of_own_cells;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (!cell->is_artificial())
     {
@@ -63,10 +63,14 @@ void VertexSolver::number()
               !constraints.is_constrained(dof))
             constraints.add_line(dof);
           if (cell->is_locally_owned())
-            needed.add_index(dof);
+            of_own_cells.push_back(dof);
         }
     }
   constraints.close();
+  std::sort(of_own_cells.begin(),
+            of_own_cells.end()); // one by one an IndexSet takes them in quadratic time
+  IndexSet needed(dof_handler.n_dofs());
+  needed.add_indices(of_own_cells.begin(), of_own_cells.end());
   residual.reinit(dof_handler.locally_owned_dofs(), needed, space.communicator());
   correction.reinit(residual);
   for (const Dof dof : dof_handler.locally_owned_dofs())

@@ -58,7 +58,7 @@ std::vector<dealii::Point<3>> sample(const HexahedralMesh &mesh);
 /** The distance of @p x from a convex face. */
 double distance(const Side<3>::Piece &piece, const dealii::Point<3> &x);
 
-/** The outer normals at @p x, more than one where faces of one side meet; in the plane one. */
+/** The outer normals at @p x of @p side, more than one where faces that differ meet there; in the plane one. */
 template <int dim>
 std::vector<dealii::Tensor<1, dim>> normals_at(const Side<dim> &side, const dealii::Point<dim> &x);
 } // namespace hpvi

@@ -147,6 +147,14 @@ unsigned int body_of(const Scene<dim> &scene, const types::boundary_id boundary)
 }
 } // namespace
 
+/** What could contradict another boundary's wish where both meet. */
+template <int dim>
+bool asks_for_displacements(const BoundaryCondition<dim> &boundary)
+{
+  return boundary.has_displacement() || boundary.symmetry || boundary.has_contact() ||
+         boundary.plate;
+}
+
 /** u_n = 0 holds one component of a node: in space that of an axis. */
 void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
 {
@@ -172,8 +180,10 @@ void check_supports(const Scene<dim> &scene)
   for (unsigned int a = 0; a < sides.size(); ++a)
     for (unsigned int b = a + 1; b < sides.size(); ++b)
     {
-      if (body_of(scene, a) != body_of(scene, b))
-        continue; // bodies may touch there, and share no point
+      if (body_of(scene, a) != body_of(scene, b) || // bodies may touch there, and share no point
+          !asks_for_displacements(scene.boundaries[a]) ||
+          !asks_for_displacements(scene.boundaries[b]))
+        continue;
       for (const Point<dim> &point : common_points(sides[a], sides[b]))
       {
         std::vector<PointCondition<dim>> conditions, limits;
