@@ -27,7 +27,7 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=80000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse"])
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts"])
 parser.add_argument("--large", action="store_true", help="ten and thirty million unknowns, and the speed-up at millions; nothing else")
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
@@ -217,6 +217,32 @@ def speedup():
     print("speed-up: wall {:.2f}, CPU {:.2f}".format(table[0][2] / table[1][2], table[0][3] / table[1][3]))
 
 
+PLATE = {"Boundary left/Symmetry": "true", "Boundary front/Symmetry": "true", "Boundary right/Traction": "0.2; 0; 0",
+         "Body force/Expression": "0; 0; -1"}  # beside doc/space/part.prm, whose part is a bracket
+PARTS = [("bracket, extruded", {}, 2, 0.125), ("bracket, extruded", {}, 2, 0.0625), ("bracket, extruded", {}, 3, 0.1),
+         ("plate, of tetrahedra", PLATE, 2, 0.3), ("plate, of tetrahedra", PLATE, 2, 0.15), ("plate, of tetrahedra", PLATE, 3, 0.25)]
+
+
+def parts():
+    """Meshes of Gmsh as they come, held by contact: wall seconds of whole runs on one process and on two, by turns, the least of some."""
+    table = []
+    for part, entries, degree, size in PARTS:
+        drawing = OUTPUT.resolve() / f"{part.split(',')[0]}-{size}.geo"
+        drawing.write_text(re.sub("^h = .*", f"h = {size};", pathlib.Path(f"doc/space/{part.split(',')[0]}.geo").read_text(), flags=re.M))
+        rows = {1: [], 2: []}
+        for k in range(options.repeat):
+            for n, of_n in rows.items():
+                of_n.append(run(f"part-{part.split(',')[0]}-{degree}-{size}-{n}-{k}", "doc/space/part.prm", n, **entries,
+                                **{"Geometry/File": drawing, "Adaptivity/Start degree": degree})[-1])
+        wall = {n: min(row["run_wall"] for row in of_n) for n, of_n in rows.items()}
+        step = {n: min(row["seconds"] for row in of_n) for n, of_n in rows.items()}
+        last, other = rows[1][0], rows[2][0]
+        table.append([part, size, degree, int(last["elements"]), int(last["dofs_free"]), int(last["newton_steps"]), int(last["newton_cg"]), round(wall[1], 1), round(wall[2], 1),
+                      round(step[1], 1), round(step[2], 1), f"{abs(1 - other['lagrangian'] / last['lagrangian']):.1e}"])
+        print(*table[-1], flush=True)
+    write("parts.csv", ["part", "mesh_size", "degree", "cells", "dofs_free", "newton_steps", "newton_cg", "wall_seconds_1", "wall_seconds_2", "step_seconds_1", "step_seconds_2", "difference"], table)
+
+
 def crossover():
     """Example 5.2 with one row of elements: CPU seconds of a run, best of some, reading the scene included; the wall seconds
     of the primal path over those of its factorisations, in the run where that is least."""
@@ -340,7 +366,7 @@ if options.draw:
     draw_crossover()
     draw_coulomb()
     draw_coarse()
-for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse):
+for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts):
     if not options.draw and part.__name__ not in options.without:
         part()
 write_page()
