@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/gathered.h>
 #include <hpvi/space/cell_basis.h>
 #include <hpvi/space/coarse_solver.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/mpi.templates.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/sparse_matrix.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace hpvi
 {
@@ -16,11 +17,19 @@ using namespace dealii;
 
 namespace
 {
-/** Column, row and value. */
-using Entries = std::vector<std::pair<std::pair<unsigned int, unsigned int>, double>>;
+struct Entry
+{
+  unsigned int column, row;
+  double value;
+};
+
+bool is_before(const Entry &one, const Entry &other)
+{
+  return std::tie(one.column, one.row) < std::tie(other.column, other.row);
+}
 
 /** Of the upper triangle, from the cells of this process. */
-Entries own_entries(const PrimalSpace<3> &space)
+std::vector<Entry> own_entries(const PrimalSpace<3> &space)
 {
   DynamicSparsityPattern dynamic(space.dof_handler.n_dofs());
   DoFTools::make_sparsity_pattern(space.dof_handler, dynamic, space.constraints, false);
@@ -55,10 +64,11 @@ Entries own_entries(const PrimalSpace<3> &space)
       cell->get_dof_indices(dofs);
       space.constraints.distribute_local_to_global(stiffness(cell), dofs, matrix);
     }
-  Entries result;
+  std::vector<Entry> result;
   for (const auto &entry : matrix) // those of cells of other processes are not there
     if (entry.row() <= entry.column())
-      result.push_back({{entry.column(), entry.row()}, entry.value()});
+      result.push_back({static_cast<unsigned int>(entry.column()),
+                        static_cast<unsigned int>(entry.row()), entry.value()});
   return result;
 }
 } // namespace
@@ -67,24 +77,20 @@ Entries own_entries(const PrimalSpace<3> &space)
 // disc couples its directions even where A does not.
 CoarseSolver::CoarseSolver(const MultigridLevel<float> &level) : level(level)
 {
-  Entries all;
-  for (const Entries &part :
-       Utilities::MPI::all_gather(level.space.communicator(), own_entries(level.space)))
-    all.insert(all.end(), part.begin(), part.end());
-  std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+  std::vector<Entry> all = gathered(own_entries(level.space), level.space.communicator());
+  std::sort(all.begin(), all.end(), is_before);
   A.reserve(all.size());
   for (std::size_t e = 0; e < all.size(); ++e)
   {
-    const auto &[place, value] = all[e];
-    if (e > 0 && place == all[e - 1].first)
+    if (e > 0 && !is_before(all[e - 1], all[e]))
     {
-      A.value.back() += value;
+      A.value.back() += all[e].value;
       continue;
     }
-    while (A.n() < place.first)
+    while (A.n() < all[e].column)
       A.column_start.push_back(A.row.size());
-    A.row.push_back(place.second);
-    A.value.push_back(value);
+    A.row.push_back(all[e].row);
+    A.value.push_back(all[e].value);
   }
   A.column_start.push_back(A.row.size());
 }
@@ -100,7 +106,7 @@ void CoarseSolver::factor()
 {
   const PrimalSpace<3> &space = level.space;
   std::vector<unsigned int> held;
-  std::vector<std::pair<std::pair<unsigned int, unsigned int>, double>> added;
+  std::vector<Entry> added;
   for (unsigned int k = 0; k < level.states.size(); ++k)
     for (unsigned int s = 0; s < space.contact[k].n_unknowns(); ++s)
     {
@@ -111,16 +117,14 @@ void CoarseSolver::factor()
       else
         for (unsigned int t = 0; t < space.contact[k].n_unknowns(); ++t)
           if (unknown(t) <= unknown(s))
-            added.push_back({{unknown(t), unknown(s)}, level.states[k].stiffness[s][t]});
+            added.push_back({unknown(s), unknown(t), level.states[k].stiffness[s][t]});
     }
   SymmetricMatrix linearised = A;
-  for (const auto &part : Utilities::MPI::all_gather(space.communicator(), added))
-    for (const auto &[place, value] : part)
-      linearised.value[entry(place.first, place.second)] += value;
+  for (const Entry &one : gathered(added, space.communicator()))
+    linearised.value[entry(one.row, one.column)] += one.value;
   std::vector<bool> is_held(A.n(), false);
-  for (const auto &part : Utilities::MPI::all_gather(space.communicator(), held))
-    for (const unsigned int i : part)
-      is_held[i] = true;
+  for (const unsigned int i : gathered(held, space.communicator()))
+    is_held[i] = true;
   for (unsigned int column = 0; column < A.n(); ++column)
     for (int e = A.column_start[column]; e < A.column_start[column + 1]; ++e)
       if (is_held[column] || is_held[A.row[e]])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/gathered.h>
 #include <hpvi/base/numerical_failure.h>
-#include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/mesh.h>
@@ -171,7 +171,8 @@ Force StaticAdmissibility::without_lifting(Force motion) const
 constexpr unsigned int n_numbers = 14;
 
 /** Those of all processes. */
-std::vector<ContactSpot> gathered(const std::vector<ContactSpot> &own, MPI_Comm communicator)
+std::vector<ContactSpot> of_all_processes(const std::vector<ContactSpot> &own,
+                                          MPI_Comm communicator)
 {
   std::vector<double> numbers;
   for (const ContactSpot &spot : own)
@@ -186,12 +187,12 @@ std::vector<ContactSpot> gathered(const std::vector<ContactSpot> &own, MPI_Comm 
       numbers.push_back(number);
   }
   std::vector<ContactSpot> result;
-  for (const auto &part : Utilities::MPI::all_gather(communicator, numbers))
-    for (auto p = part.begin(); p != part.end(); p += n_numbers)
-      result.push_back(
-          {Point<3>(p[0], p[1], p[2]), Tensor<1, 3>({p[3], p[4], p[5]}),
-           FrictionLimit{p[6], p[7], p[8]}, p[9], p[10] > 0, p[11] > 0,
-           TouchingBodies{{static_cast<unsigned int>(p[12]), static_cast<unsigned int>(p[13])}}});
+  const std::vector<double> all = gathered(numbers, communicator);
+  for (auto p = all.begin(); p != all.end(); p += n_numbers)
+    result.push_back(
+        {Point<3>(p[0], p[1], p[2]), Tensor<1, 3>({p[3], p[4], p[5]}),
+         FrictionLimit{p[6], p[7], p[8]}, p[9], p[10] > 0, p[11] > 0,
+         TouchingBodies{{static_cast<unsigned int>(p[12]), static_cast<unsigned int>(p[13])}}});
   return result;
 }
 
@@ -254,8 +255,8 @@ ContactStatics::ContactStatics(const PrimalSpace<3> &space, const DistributedVec
                    own_ends.insert(own_ends.end(), corners.begin(), corners.end());
                  }
                });
-  on_mesh = gathered(own, space.communicator());
-  ends = gathered(own_ends, space.communicator());
+  on_mesh = of_all_processes(own, space.communicator());
+  ends = of_all_processes(own_ends, space.communicator());
 }
 
 TouchingBodies ContactStatics::bodies_at(const ContactDofFace<3> &face) const

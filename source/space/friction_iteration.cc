@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/gathered.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/space/friction_iteration.h>
 
@@ -58,8 +59,7 @@ FrictionIteration<dim>::FrictionIteration(const PrimalSpace<dim> &space,
     if (space.contact[k].has_partner())
       frictions.push_back(k);
   }
-  const auto sizes =
-      Utilities::MPI::all_gather(space.communicator(), static_cast<unsigned int>(frictions.size()));
+  const auto sizes = gathered(std::vector<std::size_t>{frictions.size()}, space.communicator());
   for (unsigned int p = 0; p < Utilities::MPI::this_mpi_process(space.communicator()); ++p)
     first += sizes[p];
 }
@@ -69,13 +69,12 @@ template <int dim>
 Vector<double>
 FrictionIteration<dim>::pressures(const std::vector<ContactVector<dim>> &lambda) const
 {
-  std::vector<double> own, all;
+  std::vector<double> own;
   for (const unsigned int k : frictions)
     own.push_back(lambda.empty() ? 0.
                                  : std::max(0., lambda[space.contact[k].partner][0]) *
                                        std::sqrt(space.contact[k].area));
-  for (const auto &part : Utilities::MPI::all_gather(space.communicator(), own))
-    all.insert(all.end(), part.begin(), part.end());
+  const std::vector<double> all = gathered(own, space.communicator());
   return Vector<double>(all.begin(), all.end());
 }
 

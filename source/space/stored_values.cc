@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/processes.h>
+#include <hpvi/base/gathered.h>
 #include <hpvi/plane/global_cell_indices.h>
 #include <hpvi/space/stored_values.h>
 #include <hpvi/space/transfer.h>
@@ -17,22 +17,6 @@ namespace
 /** Numbers of cells of this process, by global_cell_indices(). */
 using CellNumbers = std::vector<std::pair<types::global_cell_index, std::vector<double>>>;
 
-/** Of all processes in turn. Utilities::MPI::all_gather() would compress them, which takes longer than all else. */
-std::vector<double> gather(const std::vector<double> &own, MPI_Comm communicator)
-{
-  const unsigned int n = hpvi::n_processes(communicator);
-  if (n == 1)
-    return own;
-  std::vector<int> counts(n), first(n);
-  const int count = own.size();
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
-  std::partial_sum(counts.begin(), counts.end() - 1, first.begin() + 1);
-  std::vector<double> all(first.back() + counts.back());
-  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), first.data(), MPI_DOUBLE,
-                 communicator);
-  return all;
-}
-
 /** Those of all @p n_cells cells of all processes. Collective. */
 std::vector<std::vector<double>> join_cells(const CellNumbers &own, const unsigned int n_cells,
                                             MPI_Comm communicator)
@@ -44,7 +28,7 @@ std::vector<std::vector<double>> join_cells(const CellNumbers &own, const unsign
     records.push_back(static_cast<double>(numbers.size()));
     records.insert(records.end(), numbers.begin(), numbers.end());
   }
-  const std::vector<double> all = gather(records, communicator);
+  const std::vector<double> all = gathered(records, communicator);
   std::vector<std::vector<double>> result(n_cells);
   for (auto record = all.begin(); record != all.end();)
   {
