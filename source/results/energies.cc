@@ -162,7 +162,8 @@ private:
           const FaceFrame<3> frame = face.frame(reference);
           u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
         }
-        sum += gauss.weight(q) * gauss.weight(r) * face.frame(reference).measure * bound * u.norm();
+        sum += gauss.weight(q) * gauss.weight(r) * face.map.face_measure(face.face_no, reference) *
+               bound * u.norm();
       }
     return width * width * sum;
   }
