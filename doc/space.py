@@ -328,6 +328,9 @@ PAGE = {
     "coarse": ("coarse cells | meshes | free unknowns | Newton steps, last mesh | conjugate-gradient steps | gigabytes | CPU seconds", lambda row: [
         count(row["coarse_cells"]), row["meshes"], count(row["dofs_free"]), row["newton_steps"], row["newton_cg"],
         f"{float(row['gigabytes']):.2f}", row["cpu_seconds"]]),
+    "parts": ("part | degree | cells | free unknowns | Newton steps | conjugate-gradient steps | seconds of a run | on two processes | of its step | on two processes", lambda row: [
+        row["part"], row["degree"], count(row["cells"]), count(row["dofs_free"]), row["newton_steps"], row["newton_cg"],
+        *(row[f"{what}_seconds_{n}"] for what in ("wall", "step") for n in (1, 2))]),
     "million": ("free unknowns | multipliers | Newton steps | conjugate-gradient steps | slipping discs | J (Lagrangian) | peak memory of both, bytes",
                 lambda row: [*(count(row[name]) for name in ("dofs_free", "multipliers", "newton_steps", "newton_cg", "slipping")),
                              f"{float(row['lagrangian']):.6f}", f"{float(row['peak_memory']):.2e}"]),
