@@ -380,8 +380,7 @@ std::array<EdgePolynomial, 2> JointTractions::wanted(const unsigned int k, const
 double JointTractions::end_of_contact(const unsigned int k) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[k];
-  if (!face.condition->is_unilateral() || face.pressures.size() < 2 ||
-      (face.is_axisymmetric && axis_face(face.map)))
+  if (!face.condition->is_unilateral() || face.pressures.size() < 2)
     return -1.;
   std::vector<unsigned int> changes;
   for (unsigned int i = 0; i + 1 < face.pressures.size(); ++i)

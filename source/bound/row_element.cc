@@ -161,7 +161,7 @@ std::array<std::array<double, 4>, 4> compliance_of(const Material &material,
 
 RowValues::RowValues(const RowTable &table, const RowShape &shape)
     : table(table), is_axisymmetric(shape.is_axisymmetric()), n_parts(is_axisymmetric ? 5 : 4),
-      n_weighted(n_parts - (shape.face_on_axis() ? 0 : 1)),
+      n_weighted(n_parts - (shape.has_slices() ? 0 : 1)),
       antisymmetry(std::sqrt(theta) * shape.antisymmetry),
       compliance(compliance_of(*shape.law, is_axisymmetric))
 {
@@ -574,9 +574,10 @@ std::array<double, 4> over(const std::array<double, 4> &densities, const double 
 } // namespace
 
 RowElement::RowElement(const RowTable &table, const RowShape &shape)
-    : table(table), values(table, shape), n_conditions(shape.face_on_axis()     ? 5
-                                                       : values.is_axisymmetric ? 1
-                                                                                : 3),
+    : table(table), values(table, shape), face_on_axis(shape.face_on_axis()),
+      n_conditions(face_on_axis             ? 5
+                   : values.is_axisymmetric ? 1
+                                            : 3),
       scale(over(shape.densities, shape.h)), bubbles(values.bubbles())
 {
   add_corners(shape);
@@ -604,12 +605,14 @@ RowElement::RowElement(const RowTable &table, const RowShape &shape)
 /** The least energy under conditions on bubbles has as many terms more as there are conditions. */
 void RowElement::set_constraints(const RowShape &shape)
 {
-  if (shape.face_on_axis())
+  if (face_on_axis)
     for (unsigned int row = 0; row < 2; ++row)
-      for (RowFields &of : values.along(*shape.face_on_axis(), row))
+      for (RowFields &of : values.along(*face_on_axis, row))
         constraints.push_back(std::move(of));
-  else
+  else if (!shape.has_slices())
     constraints.push_back(values.antisymmetric_mean());
+  if (constraints.empty())
+    return;
   const unsigned int n = n_bubbles(), m = n_edges(), k = constraints.size();
   for (const RowFields &of : constraints)
   {
@@ -648,13 +651,13 @@ std::vector<double> RowElement::missing(const std::vector<double> &of_bubbles,
 }
 
 /** On the faces beside the axis tractions of both rows vanish at the end that is on it. */
-void RowElement::set_ends(const unsigned int face_on_axis)
+void RowElement::set_ends()
 {
-  const unsigned int n = table.k + 1, m = n_edges(), first = face_on_axis < 2 ? 2 : 0;
-  const std::vector<double> L = legendre::values(n, face_on_axis % 2 ? 1. : -1.);
+  const unsigned int n = table.k + 1, m = n_edges();
+  const std::vector<double> L = legendre::values(n, *face_on_axis % 2 ? 1. : -1.);
   for (unsigned int c = 1; c < n_conditions; ++c)
   {
-    const unsigned int face = first + (c - 1) / 2, row = (c - 1) % 2;
+    const unsigned int face = face_of_end(c), row = (c - 1) % 2;
     lengths[c] = std::sqrt(std::inner_product(L.begin(), L.end(), L.begin(), 0.));
     for (unsigned int i = 0; i < n; ++i)
       N[c * m + (2 * face + row) * n + i] = L[i] / lengths[c];
@@ -674,9 +677,9 @@ void RowElement::set_conditions(const RowShape &shape)
   N.assign(n_conditions * m, 0.);
   N_divergence.assign(std::size_t(2) * n_conditions * n * n, 0.);
   const QGauss<1> gauss(table.n_gauss);
-  if (shape.face_on_axis())
-    set_ends(*shape.face_on_axis());
-  for (unsigned int c = 0; c < std::min(n_conditions, values.is_axisymmetric ? 1U : 3U); ++c)
+  if (face_on_axis)
+    set_ends();
+  for (unsigned int c = 0; c < n_motions(); ++c)
   {
     const unsigned int z = values.is_axisymmetric ? 1 : c;
     for (unsigned int q = 0; q < gauss.size(); ++q)

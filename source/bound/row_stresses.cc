@@ -339,9 +339,6 @@ void RowStresses::cut(const unsigned int index)
         }
   for (std::vector<double> &along : cuts)
     std::sort(along.begin(), along.end());
-  if (cuts[0].size() + cuts[1].size() > 4 && solution.scene.is_axisymmetric() && axis_face(map))
-    throw NumericalFailure("bodies that touch each other at the axis have meshes that do not "
-                           "match, or contact ends inside a cell there");
   const BoundingBox<2> unit(std::pair<Point<2>, Point<2>>({0., 0.}, {1., 1.}));
   for (unsigned int y = 0; y + 1 < cuts[1].size(); ++y)
     for (unsigned int x = 0; x + 1 < cuts[0].size(); ++x)
@@ -415,6 +412,7 @@ EquilibrationCache::Signature RowStresses::key(const Part &part) const
     result.push_back(std::lround(density / shape.h * 1e11));
   if (shape.is_axisymmetric())
   {
+    result.push_back(shape.has_slices());
     result.push_back(std::lround(std::log2(shape.h) * 1e9));
     result.push_back(std::lround(shape.map.vertices()[0][0] / shape.h * 1e11));
   }
@@ -444,7 +442,9 @@ RowShape RowStresses::shape_of(const Part &part) const
             ? side * patches.edges()[cell.edges[face]].length / (cell.parts[face] < 2 ? 4 : 2)
             : size_of(map_of<2>(cell.iterator)) / 2; // between parts
   }
-  result.antisymmetry = CellConstants(map_of<2>(cell.iterator)).antisymmetry(material);
+  const CellMap<2> whole = map_of<2>(cell.iterator);
+  result.antisymmetry = CellConstants(whole).antisymmetry(material);
+  result.is_in_cell_on_axis = result.is_axisymmetric() && axis_face(whole);
   return result;
 }
 
@@ -658,6 +658,25 @@ void RowStresses::add_load(const Part &part, const LoadRule<2> &rule, const Load
   }
 }
 
+namespace
+{
+/** As BoundaryTractions has it, by the highest mode. */
+void vanish_on_axis(const RowElement &element, std::array<std::vector<double>, 4> &tractions)
+{
+  const unsigned int n = element.table.k + 1;
+  for (std::vector<double> &of_vertex : tractions)
+    for (unsigned int c = element.n_motions(); c < element.n_conditions; ++c)
+    {
+      double *const own = &of_vertex[(2 * element.face_of_end(c) + (c - 1) % 2) * n];
+      const bool is_end = *element.face_on_axis % 2;
+      double value = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        value += own[i] * legendre::at_end(i, is_end);
+      own[n - 1] -= value / legendre::at_end(n - 1, is_end);
+    }
+}
+} // namespace
+
 /** What the slave exerts on the faces of a part in a joint, for each psi: tractions in the order of TractionEnergy. */
 void RowStresses::add_joints(const Part &part, OfVertices &result) const
 {
@@ -691,6 +710,8 @@ void RowStresses::add_joints(const Part &part, OfVertices &result) const
       }
     }
   }
+  if (part.element->face_on_axis)
+    vanish_on_axis(*part.element, result.tractions);
 }
 
 /** Data of each psi: divergences, and tractions that the slave exerts. */
@@ -728,7 +749,7 @@ void RowStresses::balance_parts(Cell &cell, std::vector<OfVertices> &data)
   const OfVertices whole = data_of(*cell.whole);
   const RowElement &element = *cell.parts[0].element, &of_whole = *cell.whole->element;
   const unsigned int n = element.table.k + 1;
-  const unsigned int n_conditions = element.n_conditions;
+  const unsigned int n_conditions = element.n_motions();
   std::array<std::vector<double>, 3> fields; // of two forces and a moment
   FullMatrix<double> work(n_conditions, n_conditions);
   for (unsigned int z = 0; z < n_conditions; ++z)
@@ -800,6 +821,11 @@ void RowStresses::set_gradients(const Part &part, OfVertices &data) const
   }
 }
 
+TractionEnergy RowStresses::energy_of(const Cell &cell)
+{
+  return cell.joined ? cell.joined->energy() : cell.parts[0].element->energy();
+}
+
 void RowStresses::set_cell(const unsigned int index)
 {
   Cell &cell = cells[index];
@@ -851,7 +877,7 @@ void RowStresses::set_cell(const unsigned int index)
     };
     for (unsigned int i = 0; i < gradients[0].size(); ++i)
       cell.gradients.push_back(of_hat(gradients, i));
-    for (unsigned int i = 0; i < cell.parts[0].element->n_conditions; ++i)
+    for (unsigned int i = 0; i < energy_of(cell).n_conditions; ++i)
       cell.defects.push_back(of_hat(defects, i));
   }
 }
@@ -962,8 +988,7 @@ void RowStresses::set_missed_force(Part &part)
 PatchCell RowStresses::patch_cell(const unsigned int index, const unsigned int hat) const
 {
   const Cell &cell = cells[index];
-  const TractionEnergy energy =
-      cell.joined ? cell.joined->energy() : cell.parts[0].element->energy();
+  const TractionEnergy energy = energy_of(cell);
   return {energy, cell.h * cell.h, &cell.gradients[hat * energy.n_edges()],
           &cell.defects[hat * energy.n_conditions], &patches.cells()[index]};
 }
@@ -1092,6 +1117,9 @@ double RowStresses::missed_traction(const unsigned int index, const unsigned int
 {
   const unsigned int number = patches.cells()[index].edges[face];
   const StressEdge &edge = patches.edges()[number];
+  const auto &iterator = patches.cells()[index].iterator;
+  const CellMap<2> map = map_of<2>(iterator);
+  const bool is_on_axis = CellConstants(map).is_on_axis(solution.scene.material_of(iterator));
   double square = 0;
   for (const auto &[begin, end, components] : joint_parts(index, face))
     for (const JointPiece &piece : cut_edge(index, face)->pieces)
@@ -1105,7 +1133,8 @@ double RowStresses::missed_traction(const unsigned int index, const unsigned int
             const double missed =
                 legendre::evaluate(components[row], 2 * (s - begin) / (end - begin) - 1) -
                 exact[row];
-            square += edge.length / boundary.stretch(edge, s) * weight * missed * missed;
+            square += edge.length / boundary.stretch(edge, s) * weight * missed * missed /
+                      (is_on_axis ? full_turn(map.point(point_on_face<2>(face, Point<1>(s)))) : 1.);
           }
         }
   return std::sqrt(square);

@@ -594,18 +594,36 @@ Scene<2> turned(const std::string &steps)
                    {"Adaptivity/Maximum steps", steps}});
 }
 
-/** A cylinder with its axis, under its own weight on a block, rubbing on it. */
-Scene<2> pillar(const std::string &steps)
+/** A cylinder with its axis, under its own weight on a block of @p cells, rubbing on it. */
+Scene<2> pillar(const std::string &cells, const std::string &gap, const std::string &steps)
 {
   return scene_of({given::block("pillar", "0, 0", "1, 1", "2, 2"),
-                   given::block("base", "0, -2", "2, 0", "4, 2"),
+                   given::block("base", "0, -2", "2, 0", cells),
                    given::elastic("1", "0.3"),
                    {"Material/Plane", "axisymmetric"},
                    {"Body force/Expression", "0; -0.002"},
                    {"Boundary pillar.top/Displacement", "free; -0.01"},
                    {"Boundary base.bottom/Displacement", "0; 0"},
                    {"Contact joint/Between", "pillar.bottom, base.top"},
+                   {"Contact joint/Gap", gap},
                    {"Contact joint/Friction bound", "0.001"},
+                   {"Error/Bound", "true"},
+                   {"Adaptivity/Method", "hpa3"},
+                   {"Adaptivity/Start degree", "3"},
+                   {"Adaptivity/Maximum steps", steps}});
+}
+
+/** In the solid one of the tubes cells on the axis are cut along it, by the vertices of the other. */
+Scene<2> plugged(const std::string &steps)
+{
+  return scene_of({given::block("in", "0, 0", "1, 1", "1, 2"),
+                   given::block("out", "1, -0.3", "2, 1.2", "1, 2"),
+                   given::elastic("1", "0.3"),
+                   {"Material/Plane", "axisymmetric"},
+                   {"Contact fit/Between", "in.right, out.left"},
+                   {"Contact fit/Law", "tied"},
+                   {"Boundary in.top/Traction", "0; 0.01"},
+                   {"Boundary out.bottom/Displacement", "free; 0"},
                    {"Error/Bound", "true"},
                    {"Adaptivity/Method", "hpa3"},
                    {"Adaptivity/Start degree", "3"},
@@ -633,7 +651,10 @@ TEST(JointBound, BoundsTheErrorWhereTractionsAreGiven)
         {blocks("5, 2", "10", pressed)},
         {blocks("7, 1", "1", with_gap)},
         {turned},
-        {pillar},
+        {[&](const std::string &steps)
+         { return pillar("3, 2", "0", steps); }}, // cuts in cells on the axis
+        {[&](const std::string &steps) { return pillar("4, 2", "0.02*x^2", steps); }},
+        {plugged},
         {[&](const std::string &steps) { return tubes(tied, steps); }},
         {[&](const std::string &steps) {
           return tubes({{"Law", "unilateral"}, {"Gap", "-0.05"}, {"Friction bound", "0.002"}},

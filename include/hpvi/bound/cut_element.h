@@ -64,17 +64,23 @@ private:
     return 8 * (k + 1);
   }
   void set_places(unsigned int n_xi);
+  void set_rows();
   void add_box(unsigned int box);
   std::vector<double> inner(const Data &data) const;
 
   const std::vector<Part> parts;
   const double h;
   const dealii::Point<2> centre;
-  const unsigned int k, n_motions;
-  unsigned int n = 0; ///< tractions on the faces of the cell and between boxes
+  const unsigned int k, n_motions; ///< conditions of balance of each box
+  unsigned int n_conditions = 0;   ///< of the cell: with those on the axis
+  unsigned int n = 0;              ///< tractions on the faces of the cell and between boxes
   std::vector<dealii::FullMatrix<double>> to; ///< by box: its tractions by those
+  std::vector<std::array<bool, 4>> is_outer;  ///< by box and face: on one of the cell?
   dealii::FullMatrix<double> A;               ///< energy, n x n
-  dealii::FullMatrix<double> C;               ///< conditions of all boxes but the last x n
+  dealii::FullMatrix<double>
+      C; ///< conditions on what is between boxes x n: balance of all but the last, and ends on the axis
+  /** By box and condition: the row of C, or none. */
+  std::vector<std::array<unsigned int, 5>> rows;
   std::unique_ptr<const LuFactor>
       factor; ///< of the inner tractions and the multipliers of their conditions
   dealii::FullMatrix<double> best; ///< n x n_faces: all tractions by those on faces, without data

@@ -82,7 +82,8 @@ struct RowShape
   double h;       ///< h^2 is a quarter of the area of the corners' quadrilateral [length]
   std::array<double, 4>
       densities; ///< by face: flux on [-1,1] over the traction that StressEdge counts [length]
-  double antisymmetry; ///< C_K of CellConstants
+  double antisymmetry;             ///< C_K of CellConstants
+  bool is_in_cell_on_axis = false; ///< is it a box of a cell that has a face on the axis?
 
   /** Of a body of revolution, whose rows are those of `2 pi x s`. */
   bool is_axisymmetric() const
@@ -90,10 +91,16 @@ struct RowShape
     return law->plane == PlaneModel::axisymmetric;
   }
 
-  /** Of such a body: that along the axis, where rows vanish; C_K is for (int q^2/w)^{1/2} then, without a mean. */
+  /** Of such a body: that along the axis, where rows vanish. */
   std::optional<unsigned int> face_on_axis() const
   {
     return is_axisymmetric() ? axis_face(map) : std::nullopt;
+  }
+
+  /** Is C_K for (int q^2/w)^{1/2}, without a mean? */
+  bool has_slices() const
+  {
+    return is_in_cell_on_axis || face_on_axis();
   }
 };
 
@@ -216,12 +223,25 @@ public:
 
   const RowTable &table;
   const RowValues values;
+  const std::optional<unsigned int> face_on_axis;
   const unsigned int n_conditions;
   const std::array<double, 4> scale; ///< RowShape::densities over h
+  /** Of balance first; then, in a cell on the axis, those that rows of tractions vanish at their ends on it: face_of_end(). */
   using Conditions = std::array<double, 5>;
   Conditions lengths{}; ///< of the columns of N before they had length 1
 
   TractionEnergy energy() const;
+
+  unsigned int n_motions() const ///< conditions of balance
+  {
+    return values.is_axisymmetric ? 1 : 3;
+  }
+
+  /** The face of condition @p c from the second on, in a cell on the axis. */
+  unsigned int face_of_end(const unsigned int c) const
+  {
+    return (*face_on_axis < 2 ? 2 : 0) + (c - 1) / 2;
+  }
 
   /** The first whose divergence is a datum. */
   unsigned int first_row() const
@@ -241,7 +261,7 @@ public:
 private:
   void set_conditions(const RowShape &shape);
   void set_constraints(const RowShape &shape);
-  void set_ends(unsigned int face_on_axis);
+  void set_ends();
   unsigned int n_bubbles() const
   {
     return bubbles.size() + table.corners.size();

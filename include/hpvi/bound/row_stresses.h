@@ -44,7 +44,7 @@ public:
 
   double missed_force(unsigned int cell) const; ///< |F - Pi F| on the cell
 
-  /** |tau - Pi tau| on a face on which tau has pieces, zero on others. */
+  /** |tau - Pi tau| on a face on which tau has pieces, zero on others; of a cell on the axis over the root of 2 pi x. */
   double missed_traction(unsigned int cell, unsigned int face) const;
 
   /** What contact exerts on a part of such a face, towards growing reference coordinates: by x and y, from begin to end. */
@@ -127,6 +127,7 @@ private:
   OfVertices data_of(Part &part);
   void balance_parts(Cell &cell, std::vector<OfVertices> &data);
   void set_gradients(const Part &part, OfVertices &data) const;
+  static TractionEnergy energy_of(const Cell &cell);
   void set_cell(unsigned int cell);
   void join_parts();
   std::vector<PointStress> stress_at_points(const Part &part) const;
