@@ -126,6 +126,7 @@ JointLift::Piece JointLift::piece(const JointPiece &place, const JointEdge &edge
   const ContactFace<2> &face = solution.contact_space.faces()[place.face];
   const BoundaryCondition<2> &law = *face.condition;
   Piece result(place, /*is_joint=*/true);
+  result.is_unilateral = law.is_unilateral();
   if (law.is_unilateral())
     result.modes[0] = tractions.presses(place) ? exact : below;
   else if (law.contact != Contact::tangential)
@@ -179,7 +180,8 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
       {
         const double value = piece.jump[c](end);
         if (piece.modes[c] == exact || (piece.modes[c] == below && value > 0.))
-          wishes[vertex].push_back({mover.sign * frame(piece, end)[c], -value});
+          wishes[vertex].push_back(
+              {mover.sign * frame(piece, end)[c], -value, c == 0 && piece.is_unilateral});
       }
     }
   for (const auto &[vertex, all] : wishes)
@@ -203,7 +205,30 @@ void JointLift::set_vertices(const NodeFreedom &freedom)
       continue;
     const double trace = M[0][0] + M[1][1];
     d = determinant(M) > 1e-8 * trace * trace ? Tensor<1, 2>(invert(M) * r) : r / trace;
+    for (const Wish &wish : all) // which polynomials beside a vertex know to different digits
+      if (const double more = wish.direction * d - wish.value;
+          wish.is_most && more > 0. && only.norm_square() == 0.)
+        d -= more * wish.direction;
   }
+}
+
+/** What the pieces beside a cut ask of [d] there: what is exact decides, and where contact may open the one that asks for more. */
+double JointLift::at_cut(const std::array<const Piece *, 2> &pieces, const unsigned int c)
+{
+  double value = 0;
+  bool is_exact = false, may_open = c == 0;
+  for (const unsigned int side : {0, 1})
+    if (const Piece &piece = *pieces[side]; piece.is_joint && piece.modes[c] == exact)
+    {
+      const double wanted = -piece.jump[c](1. - side);
+      value = is_exact ? std::min(value, wanted) : wanted;
+      is_exact = true;
+      may_open = may_open && piece.is_unilateral;
+    }
+  for (const unsigned int side : {0, 1})
+    if (const Piece &piece = *pieces[side]; piece.is_joint && piece.modes[c] == below && may_open)
+      value = std::min(value, -piece.jump[c](1. - side));
+  return value;
 }
 
 /** d at both ends of each piece: at vertices it is known, at cuts between pieces it is what these ask for. */
@@ -217,19 +242,13 @@ void JointLift::set_ends(Mover &mover) const
     Tensor<1, 2> d;
     for (unsigned int c = 0; c < 2; ++c)
     {
-      double value = 0;
-      bool is_exact = false;
       Tensor<1, 2> direction;
       for (const unsigned int side : {0, 1})
-        if (const Piece &piece = pieces[k + side]; piece.is_joint && piece.modes[c] != any)
-        {
-          const double wanted = -piece.jump[c](1. - side);
-          is_exact |= piece.modes[c] == exact;
-          value = is_exact ? wanted : std::min(wanted, 0.);
+        if (const Piece &piece = pieces[k + side];
+            piece.is_joint &&
+            (piece.modes[c] == exact || (piece.modes[c] == below && direction.norm_square() == 0.)))
           direction = frame(piece, 1. - side)[c];
-          if (is_exact)
-            break;
-        }
+      const double value = at_cut({{&pieces[k], &pieces[k + 1]}}, c);
       d += mover.sign * value * direction;
     }
     pieces[k].at_ends[1] = pieces[k + 1].at_ends[0] = d;
@@ -277,8 +296,9 @@ void JointLift::set_change(Piece &piece, const double sign, const unsigned int c
   if (piece.modes[c] == any)
     return;
   const EdgePolynomial left = piece.jump[c] + change;
+  const bool may_open = c == 0 && piece.is_unilateral;
   for (const unsigned int end : {0, 1})
-    if (const double by = piece.modes[c] == exact ? std::abs(left(end)) : left(end);
+    if (const double by = piece.modes[c] == exact && !may_open ? std::abs(left(end)) : left(end);
         by > round_off * std::max(size, piece.jump[c].largest()))
       set_flaw(piece, by);
   if (piece.modes[c] == exact)
@@ -287,6 +307,12 @@ void JointLift::set_change(Piece &piece, const double sign, const unsigned int c
     for (double &value : minus)
       value = -value;
     change = EdgePolynomial(minus);
+    if (may_open)
+    {
+      const double begin = std::min(0., left(0.)), end = std::min(0., left(1.));
+      change = change + polynomial(2, solution.tables,
+                                   [&](const double t) { return begin + t * (end - begin); });
+    }
   }
   else if (const double height = height_over(left, {{true, true}}, 1e-14 * size, solution.tables);
            height > 0.)
@@ -428,7 +454,7 @@ void JointLift::add_gaps(const Mover &mover, const Piece &piece)
                    ds = weight * tractions.measure(place, own);
       const Tensor<1, 2> tau = tractions.value(place.face, s);
       work -= mover.sign * ds * (tau * rest(mover, piece, t));
-      if (piece.modes[0] == below)
+      if (piece.is_unilateral)
         gaps[place.face] -= ds * tractions.pressure(place.face, s) * open(t);
       if (!has_friction)
         continue;

@@ -41,7 +41,7 @@ private:
   {
     any,   ///< linear between its ends
     below, ///< likewise, and more where `[U] <= u_0` asks for it
-    exact  ///< [U] = 0, or u_0
+    exact  ///< [U] = 0; or u_0, less what is linear between the ends if these ask for more
   };
   struct Piece
   {
@@ -51,6 +51,7 @@ private:
 
     JointPiece place;
     bool is_joint; ///< else no body lies opposite to this part of a master
+    bool is_unilateral = false;
     std::array<Mode, 2> modes{{any, any}};
     std::array<EdgePolynomial, 2> jump;   ///< [u_N] by normal and tangent along the piece, less u_0
     std::array<EdgePolynomial, 2> change; ///< [d] likewise
@@ -70,6 +71,7 @@ private:
   {
     dealii::Tensor<1, 2> direction;
     double value;
+    bool is_most; ///< less will do
   };
 
   void choose_movers();
@@ -79,6 +81,7 @@ private:
   unsigned int points_along(const Piece &piece, unsigned int degree) const;
   void set_vertices(const NodeFreedom &freedom);
   void set_ends(Mover &mover) const;
+  static double at_cut(const std::array<const Piece *, 2> &pieces, unsigned int c);
   void set_changes(Mover &mover);
   void set_change(Piece &piece, double sign, unsigned int c);
   void add_rest(const Mover &mover);
