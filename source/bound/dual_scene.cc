@@ -62,11 +62,12 @@ void forget_pairs(Scene<2> &scene)
   scene.pairs = kept;
 }
 
-double length_of(const Side<2> &side)
+/** Of a side of straight pieces; of a body of revolution what it turns into. */
+double size_of(const Side<2> &side, const Scene<2> &scene)
 {
   double result = 0;
   for (const auto &piece : side.pieces)
-    result += piece[0].distance(piece[1]);
+    result += piece[0].distance(piece[1]) * scene.circumference((piece[0] + piece[1]) / 2.);
   return result;
 }
 
@@ -74,9 +75,9 @@ double length_of(const Side<2> &side)
 void load_boundary(Scene<2> &dual, const Probe<2> &probe, const unsigned int component)
 {
   const std::vector<Side<2>> sides = sides_of(dual);
-  double length = 0;
+  double size = 0;
   for (const types::boundary_id id : probe.on)
-    length += length_of(sides[id]);
+    size += size_of(sides[id], dual);
   for (const types::boundary_id id : probe.on)
   {
     if (sides[id].pieces.empty()) // parts have it all
@@ -91,9 +92,9 @@ void load_boundary(Scene<2> &dual, const Probe<2> &probe, const unsigned int com
       }
     if (boundary.plate)
       boundary.plate->force[component] =
-          boundary.plate->is_free(component) ? length_of(sides[id]) / length : 0.;
+          boundary.plate->is_free(component) ? size_of(sides[id], dual) / size : 0.;
     else if (!boundary.displacement[component])
-      boundary.traction[component] = expression<2>(1 / length);
+      boundary.traction[component] = expression<2>(1 / size);
   }
 }
 } // namespace

@@ -193,8 +193,8 @@ void MeanIntervals<2>::set(StepReport<2> &step)
     if (!probe.is_mean())
       continue;
     std::string flaw;
-    if (scene.is_axisymmetric())
-      flaw = "means in a body of revolution have the weight of the radius";
+    if (scene.is_axisymmetric() && probe.kind == ProbeKind::disc)
+      flaw = "a mean over a ring has the weight of the radius";
     for (unsigned int c = 0; c < 2 && flaw.empty(); ++c)
     {
       const Dual &of_mean = dual(value.probe, c);

@@ -453,6 +453,18 @@ Overrides pulled(const Overrides &more, const std::string &cells = "4, 4")
   return result;
 }
 
+/** A body of revolution on its end, pressed inwards and drawn upwards, from a radius on. */
+Overrides turned(const std::string &corner)
+{
+  return {{"Geometry/Lower corner", corner},
+          {"Geometry/Upper corner", "2, 1"},
+          {"Geometry/Subdivisions", "3, 2"},
+          {"Material/Plane", "axisymmetric"},
+          {"Boundary bottom/Displacement", "0; 0.001"},
+          {"Boundary right/Traction", "-0.02*y; 0.01"},
+          {"Boundary top/Traction", "0; 0.02"}};
+}
+
 const std::vector<HeldProbe> held_probes{
     {"plate_under_a_force",
      pulled({{"Boundary right/Rigid", "true"}, {"Boundary right/Force", "0.01; -0.01"}}), "right",
@@ -471,6 +483,10 @@ const std::vector<HeldProbe> held_probes{
              {"Boundary end/Where", "y - 0.5"},
              {"Boundary end/Traction", "0.01; 0"}}),
      "end", "xy", ""},
+    {"tube", turned("1, 0"), "right", "xy", ""},
+    {"end_of_a_tube", turned("1, 0"), "top", "xy", ""},
+    {"end_of_a_solid", turned("0, 0"), "top", "xy", ""},
+    {"support_of_a_solid", turned("0, 0"), "bottom", "xy", ""},
     {"symmetry_at_an_angle",
      pulled({given::quadrilateral("Geometry", "0, 0; 1, -0.2; 1.2, 0.8; 0.2, 1"),
              {"Boundary bottom/Symmetry", "true"}}),
