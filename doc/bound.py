@@ -79,6 +79,34 @@ LONG = {"beam": ("Cantilever", "{4*A}, 1", "4, 1", "{4*A}, 1",
                     ["Boundary bottom/Displacement=0; 0", "Boundary top/Traction=0; -1 - x"]),
         "sheared": ("Block under shear", "1, 1", "1, {A}", "4, 4",
                     ["Boundary bottom/Displacement=0; 0", "Boundary top/Traction=0.5; -1 - x"])}
+# Bodies of curved cells, cells that do not match, and cells around an axis: title, a mesh in MESHES or a shape, and settings.
+ELASTIC = ["Material/Young's modulus=10", "Material/Poisson's ratio=0.3"]
+SECTOR = ["Geometry/Shape=ring sector", "Geometry/Radii=1, 2", "Boundary inner/Pressure=1",
+          "Boundary start/Symmetry=true", "Boundary end/Symmetry=true"]
+CURVED = {"lame": ("Lame's ring", None, [*SECTOR, "Geometry/Angles=0, 90", "Geometry/Subdivisions=1, 2"]),
+          "sphere": ("Lame's sphere", None, [*SECTOR, "Geometry/Angles=-30, 30", "Geometry/Subdivisions=1, 2",
+                                             "Material/Plane=axisymmetric"]),
+          "clamped": ("Clamped ring", "ring", ["Boundary inner/Pressure=1", "Boundary start/Displacement=0; 0"]),
+          "disc": ("Half disc, clamped", "disc", ["Boundary flat/Displacement=0; 0", "Boundary arc/Traction=0.1*y; -1"]),
+          "hole": ("Plate with a hole", None, ["Geometry/Shape=plate with hole", "Geometry/Upper corner=2, 2",
+                                               "Geometry/Radius=0.5", "Geometry/Part=quarter",
+                                               "Geometry/Subdivisions=2, 2", "Boundary left/Symmetry=true",
+                                               "Boundary bottom/Symmetry=true", "Boundary right/Traction=1; 0"])}
+# Least energies in plane strain: u = A r + B/r; and between spheres u = A R + B/R^2, on a zone as high as its inner radius.
+ENERGIES = {"lame": -0.13 * (0.4 / 3 + 4 / 3) * np.pi / 4, "sphere": -np.pi * (1 / 7 * 0.4 + 4 / 7 * 1.3) / 10}
+TUBE = ["Geometry/Lower corner=1, 0", "Geometry/Upper corner=2, 1", "Geometry/Subdivisions=2, 2",
+        "Material/Plane=axisymmetric"]
+STRAIGHT = {"cylinder": ("Thick cylinder", "bare", [*TUBE, "Boundary bottom/Displacement=free; 0",
+                                                    "Boundary left/Pressure=1 + y^2"]),
+            "clamped-cylinder": ("Thick cylinder, clamped", "bare", [*TUBE, "Boundary bottom/Displacement=0; 0",
+                                                                     "Boundary right/Shear=1"]),
+            "solid-cylinder": ("Solid cylinder, clamped",
+                               "bare", [*TUBE, "Geometry/Lower corner=0, 0", "Boundary bottom/Displacement=0; 0",
+                                        "Boundary top/Traction=0; -1"])}
+LAWS = {"tied": ["Contact joint/Law=tied", "Contact joint/Friction bound="],
+        "sliding": ["Contact joint/Law=bilateral", "Contact joint/Friction bound="],
+        "rubbing": ["Contact joint/Friction bound=0.0055"]}
+RATIOS = {"1/100": "0.2", "1/10": "2", "1": "20", "10": "200", "100": "2000"}
 FLOOR = 1e-9  # relative error below which round-off shows
 
 
@@ -374,6 +402,108 @@ def aspect_row(lab, body, corner, mesh, squares, settings):
     return result
 
 
+def on_circle(r, degrees):
+    return r * np.cos(np.radians(degrees)), r * np.sin(np.radians(degrees))
+
+
+def quarter_of_ring():
+    """Of radii 1 and 2 in 2 x 4 cells, and its named edges with the points on circles in their middles."""
+    t = np.linspace(0, 90, 5)
+    cells = [[on_circle(r, t[j]), on_circle(r + 0.5, t[j]), on_circle(r + 0.5, t[j + 1]), on_circle(r, t[j + 1])]
+             for r in (1, 1.5) for j in range(4)]
+    named = {name: [(on_circle(r, t[j]), on_circle(r, t[j + 1]), on_circle(r, (t[j] + t[j + 1]) / 2))
+                    for j in range(4)] for name, r in (("inner", 1), ("outer", 2))}
+    for name, at in (("start", 0), ("end", 90)):
+        named[name] = [(on_circle(r, at), on_circle(r + 0.5, at), on_circle(r + 0.25, at)) for r in (1, 1.5)]
+    return cells, named
+
+
+def half_disc():
+    """The upper half of the unit disc, two cells in its middle."""
+    inner = [(0.5, 0), (0.5, 0.5), (0, 0.5), (-0.5, 0.5), (-0.5, 0)]
+    t = range(0, 181, 45)
+    cells = [[inner[j], on_circle(1, t[j]), on_circle(1, t[j + 1]), inner[j + 1]] for j in range(4)]
+    cells += [[(x, 0), (x + 0.5, 0), (x + 0.5, 0.5), (x, 0.5)] for x in (0, -0.5)]
+    return cells, {"arc": [(on_circle(1, a), on_circle(1, b), on_circle(1, (a + b) / 2)) for a, b in zip(t, t[1:])],
+                   "flat": [((x, 0), (x + 0.5, 0), (x + 0.25, 0)) for x in (-1, -0.5, 0, 0.5)]}
+
+
+MESHES = {"ring": quarter_of_ring, "disc": half_disc}
+
+
+def write_mesh(path, cells, named):
+    """Of second order, so that all degrees have one body: Gmsh's format."""
+    nodes = {}
+
+    def node(x):
+        return nodes.setdefault((round(x[0], 12) + 0., round(x[1], 12) + 0.), len(nodes) + 1)
+
+    middles = {frozenset((node(a), node(b))): m for edges in named.values() for a, b, m in edges}
+    elements = [f"8 2 {k} {k} {node(a)} {node(b)} {node(m)}"
+                for k, edges in enumerate(named.values(), 1) for a, b, m in edges]
+    for cell in cells:
+        corners = [node(x) for x in cell]
+        sides = [(cell[i], cell[(i + 1) % 4]) for i in range(4)]
+        mids = [middles.get(frozenset((node(a), node(b))), tuple((np.array(a) + b) / 2)) for a, b in sides]
+        elements.append(" ".join(map(str, [16, 2, len(named) + 1, 1, *corners, *map(node, mids)])))
+    names = [f'1 {k} "{name}"' for k, name in enumerate(named, 1)] + [f'2 {len(named) + 1} "body"']
+    sections = {"MeshFormat": ["2.2 0 8"], "PhysicalNames": [len(names), *names],
+                "Nodes": [len(nodes), *(f"{k} {x!r} {y!r} 0" for (x, y), k in nodes.items())],
+                "Elements": [len(elements), *(f"{k} {line}" for k, line in enumerate(elements, 1))]}
+    path.write_text("".join(f"${name}\n" + "".join(f"{line}\n" for line in lines) + f"$End{name}\n"
+                            for name, lines in sections.items()))
+
+
+def body_row(title, method, error, bound):
+    """In steps whose error is known to more than a hundredth of its square."""
+    ratio = bound / error
+    keep = np.isfinite(ratio)
+    return {"body": title, "method": method, "steps": keep.sum(), "least bound/error": plain(ratio[keep].min(), 3),
+            "largest bound/error": plain(ratio[keep].max(), 2), "last bound/error": plain(ratio[keep][-1], 2)}
+
+
+def bodies(lab):
+    """Bound over error on curved bodies, by the least energy of a finer run, and on the others by a finer solution."""
+    rows = []
+    bare = lab.home / "bare"
+    bare.with_suffix(".prm").write_text("set Dimension = 2\n")
+    methods = {"pu": 11, "hap3": 6, "hpa3": 10}
+    for body, (title, mesh, settings) in CURVED.items():
+        progress(f"  {title}")
+        settings = [*ELASTIC, *settings]
+        if mesh:
+            write_mesh(lab.home / f"{mesh}.msh", *MESHES[mesh]())
+            settings += ["Geometry/Shape=file", f"Geometry/File={lab.home / mesh}.msh"]
+        if body in ENERGIES:
+            J, doubt = ENERGIES[body], 0
+        else:
+            energies = lab.run(bare, f"finest-{body}", *settings, *method_settings("hpa3", 24, "residual"),
+                               "Adaptivity/Start degree=4", "Error/Bound=false").column("energy")
+            J, doubt = energies.min(), abs(energies[-2] - energies[-1])
+        doubt += 1e-13 * abs(J)
+        for method, steps in methods.items():
+            run = lab.run(bare, f"{body}-{method}", *settings, *method_settings(method, steps, "bound"),
+                          "Adaptivity/Start degree=2", "Error/Bound=true")
+            square = 2 * (run.column("energy") - J)
+            rows.append(body_row(title, method,
+                                 np.sqrt(np.where(square > 200 * doubt, square, np.nan)), run.column("error_bound")))
+    joints = {f"joint-{law}-{E}": (f"Blocks, {law}, E {ratio}", "blocks",
+                                   [*entries, f"Material/Young's modulus={E}"])
+              for law, entries in LAWS.items() for ratio, E in RATIOS.items()}
+    for body, (title, scene, settings) in {**STRAIGHT, **joints}.items():
+        settings = [*(ELASTIC if scene == "bare" else []), *settings]
+        scene = bare if scene == "bare" else scene
+        progress(f"  {title}")
+        reference = lab.reference(scene, body, *settings, "Adaptivity/Start degree=2", "Error/Bound=false",
+                                  unknowns=30000)[0]
+        for method, steps in {**methods, "pu": 7}.items():
+            run = lab.run(scene, f"{body}-{method}", *settings, *method_settings(method, steps, "bound"),
+                          "Adaptivity/Start degree=2", "Error/Bound=true", reference)
+            rows.append(body_row(title, method, run.column("error_energy"),
+                                 run.column("error_bound")))
+    put_table("bodies", rows, page=PAGE)
+
+
 def forces(lab):
     """Half-widths of forces and mean displacements beside the errors of their centres, which a longer run tells."""
     rows, shown, runs = [], [], {}
@@ -443,9 +573,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="build/hpvi")
     parser.add_argument("--output", default="output/bound", type=pathlib.Path)
-    parser.add_argument("--only", choices=["cost", "chart", "skew", "aspect", "forces"],
+    parser.add_argument("--only", choices=["cost", "chart", "skew", "aspect", "bodies", "forces"],
                         help="measure nothing else than the time, than what the charts of effectivities and intervals show, "
-                             "than skew parallelograms, than long cells, or than intervals of forces")
+                             "than skew parallelograms, than long cells, than curved bodies, joints and bodies of revolution, "
+                             "or than intervals of forces")
     parser.add_argument("--draw", action="store_true", help="run nothing: draw two charts from doc/bound/chart.csv and widths.csv")
     arguments = parser.parse_args()
     if arguments.draw:
@@ -458,6 +589,9 @@ def main():
     lab.home.mkdir(parents=True, exist_ok=True)
     if arguments.only == "aspect":
         long_cells(lab)
+        return
+    if arguments.only == "bodies":
+        bodies(lab)
         return
     if arguments.only == "forces":
         forces(lab)
@@ -478,6 +612,7 @@ def main():
         shares(runs)
         stiff(lab)
         long_cells(lab)
+        bodies(lab)
         forces(lab)
     if arguments.only != "cost":
         skew(lab)
