@@ -36,6 +36,9 @@ struct Bilinear
   Tensor<1, 2> slope;
 };
 
+/** Of the rule beside that of energies on curved cells. */
+constexpr unsigned int more_points = 6;
+
 /** Points per direction for energies: all that sees the map converges as the stiffness does. */
 unsigned int energy_points(const CellMap<2> &map, const unsigned int k)
 {
@@ -494,13 +497,13 @@ std::vector<RowStresses::PointStress> RowStresses::sigma(const Part &part,
 }
 
 /** What `w s_tt` is to be near less what the first row has for it besides its divergence, over w. */
-double RowStresses::around(const Part &part, const PointStress &stress, const unsigned int q,
+double RowStresses::around(const Part &part, const PointStress &stress, const Point<2> &reference,
                            const Hat &psi) const
 {
   const Scene<2> &scene = solution.scene;
   if (!scene.is_axisymmetric())
     return 0.;
-  const Point<2> &reference = part.element->table.points[q], x = part.map.point(reference);
+  const Point<2> x = part.map.point(reference);
   const Tensor<1, 2> slope = psi.slope * invert(part.map.jacobian(reference));
   const double force =
       scene.has_body_force()
@@ -790,7 +793,7 @@ void RowStresses::set_gradients(const Part &part, OfVertices &data) const
 {
   const RowElement &element = *part.element;
   const unsigned int n = element.table.k + 1, n_edges = 8 * n;
-  const std::vector<PointStress> stress = stress_at_points(part);
+  const std::vector<PointStress> stress = stress_at_points(part, element.table);
   const TractionEnergy energy = element.energy();
   for (unsigned int v = 0; v < 4; ++v)
   {
@@ -805,7 +808,7 @@ void RowStresses::set_gradients(const Part &part, OfVertices &data) const
     {
       const Hat psi = hat(part, v, element.table.points[q]);
       element.values.subtract(q, stress[q].in_plane, psi.value, difference,
-                              around(part, stress[q], q, psi));
+                              around(part, stress[q], element.table.points[q], psi));
     }
     data.gradients[v] = element.reduced(element.values.derivatives(difference), fields);
     data.defects[v] = element.moments(divergence.data());
@@ -931,10 +934,10 @@ void RowStresses::join_parts()
   }
 }
 
-/** sigma(u_N) at the points of the element, less the initial stress there. */
-std::vector<RowStresses::PointStress> RowStresses::stress_at_points(const Part &part) const
+/** sigma(u_N) at the points of a table, less the initial stress there. */
+std::vector<RowStresses::PointStress> RowStresses::stress_at_points(const Part &part,
+                                                                    const RowTable &table) const
 {
-  const RowTable &table = part.element->table;
   std::vector<PointStress> result = sigma(part, table.n_gauss);
   if (!solution.scene.has_initial_strain())
     return result;
@@ -1008,7 +1011,20 @@ RowStresses::tractions_of_parts(const unsigned int index,
   return result;
 }
 
-/** s - sigma(u_N), and s by its fields. */
+/** s - sigma(u_N) by the fields of s. */
+RowValues::Stress RowStresses::difference(const Part &part, const RowValues &values,
+                                          const RowFields &fields) const
+{
+  RowValues::Stress result(values);
+  values.add(fields, result);
+  const std::vector<PointStress> stress = stress_at_points(part, values.table);
+  for (unsigned int q = 0; q < stress.size(); ++q)
+    values.subtract(q, stress[q].in_plane, 1., result,
+                    around(part, stress[q], values.table.points[q], {1., {}}));
+  return result;
+}
+
+/** The same, and s by its fields. */
 RowValues::Stress RowStresses::residual(const Part &part, const std::vector<double> &tractions,
                                         RowFields &fields) const
 {
@@ -1025,16 +1041,41 @@ RowValues::Stress RowStresses::residual(const Part &part, const std::vector<doub
     std::copy(&part.divergence[row * n * n], &part.divergence[row * n * n] + n * n,
               own + table.of_divergence());
   }
-  RowValues::Stress result(values);
-  values.add(fields, result);
-  const std::vector<PointStress> stress = stress_at_points(part);
-  for (unsigned int q = 0; q < stress.size(); ++q)
-    values.subtract(q, stress[q].in_plane, 1., result, around(part, stress[q], q, {1., {}}));
+  RowValues::Stress result = difference(part, values, fields);
   const RowFields change = part.element->best_bubbles(values.derivatives(result), fields);
   values.add(change, result);
   for (unsigned int i = 0; i < fields.fields.size(); ++i)
     fields.fields[i] += change.fields[i];
   fields.corners = change.corners;
+  return result;
+}
+
+/**
+ * Of s - sigma(u_N) and of what is antisymmetric, times theta C_K^2, per h^2. On a curved cell neither is a polynomial over another of known sign: a rule
+ * with more points tells what the first one misses, and that counts twice.
+ */
+std::array<double, 2> RowStresses::squares(const Part &part,
+                                           const std::vector<double> &tractions) const
+{
+  const RowElement &element = *part.element;
+  RowFields fields(element.table);
+  const RowValues::Stress missed = residual(part, tractions, fields);
+  std::array<double, 2> result{
+      {element.values.square(missed, false), element.values.square(missed, true)}};
+  if (!part.map.is_curved())
+    return result;
+  unsigned int corners = 0;
+  for (const unsigned int corner : element.table.corners)
+    corners |= 1u << corner;
+  const RowValues finer(
+      cache.row_table(element.table.k, element.table.n_gauss + more_points, corners),
+      shape_of(part));
+  const RowValues::Stress seen = difference(part, finer, fields);
+  for (const bool is_antisymmetric : {false, true})
+  {
+    const double square = finer.square(seen, is_antisymmetric);
+    result[is_antisymmetric] = square + std::abs(square - result[is_antisymmetric]);
+  }
   return result;
 }
 
@@ -1046,11 +1087,10 @@ RowStresses::Distance RowStresses::distance(const unsigned int index,
   for (unsigned int k = 0; k < by_part.size(); ++k)
   {
     const Part &part = cells[index].parts[k];
-    RowFields fields(part.element->table);
-    const RowValues::Stress missed = residual(part, by_part[k], fields);
+    const auto [symmetric, antisymmetric] = squares(part, by_part[k]);
     const double area = part.h * part.h;
-    result.square += area * part.element->values.square(missed, false);
-    result.antisymmetry += area * part.element->values.square(missed, true) / RowValues::theta;
+    result.square += area * symmetric;
+    result.antisymmetry += area * antisymmetric / RowValues::theta;
   }
   result.antisymmetry = std::sqrt(result.antisymmetry);
   return result;

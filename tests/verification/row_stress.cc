@@ -675,6 +675,44 @@ TEST(RowStresses, SeeInitialStrainsBetweenTheirPoints)
   EXPECT_NEAR(std::sqrt(stress.squares[0]), std::sqrt(square), 1e-5 * std::sqrt(square));
 }
 
+/** On curved cells energies are no integrals of polynomials: no less counts than far more points have. */
+TEST(RowStresses, CountAllOfTheirEnergyOnCurvedCells)
+{
+  const Scene<2> scene = scene_of(ring({{"Geometry/Subdivisions", "1, 2"},
+                                        {"Boundary inner/Traction", "x*y; 1 - y"},
+                                        {"Boundary start/Displacement", "0; 0"}}));
+  const Quadrature<2> rule = corner_quadrature({0, 1, 2, 3}, 16);
+  for (const unsigned int p : {2, 3, 4})
+  {
+    const RandomMesh mesh(scene, 1, 0, p, p);
+    const Laboratory lab(scene, mesh);
+    const Solution<2> solution = lab.solve();
+    EquilibrationCache cache;
+    const EquilibratedStress stress(
+        solution, [](unsigned int, unsigned int) { return std::vector<double>(); }, {}, cache);
+    const HookesLaw<2> law(scene.materials[0]);
+    const ShapeTable<2> table = tabulate<2>(p, rule.get_points(), rule.get_weights(), false);
+    for (unsigned int index = 0; index < stress.squares.size(); ++index)
+    {
+      const CellMap<2> map = map_of<2>(stress.patches().cells()[index].iterator);
+      const std::vector<double> derivatives =
+          evaluate(table.derivatives, solution.coefficients(index));
+      double square = 0;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const Tensor<2, 2> J = map.jacobian(rule.point(q));
+        const SymmetricTensor<2, 2> missed =
+            symmetrize(stress.value_of_rows(index, rule.point(q))) -
+            law.stress(physical_gradient<2>(derivatives, q * table.rows_per_point,
+                                            table.derivatives.m(), invert(J)));
+        square += rule.weight(q) * determinant(J) * law.complementary_product(missed, missed);
+      }
+      EXPECT_GE(stress.squares[index], square * (1 - 1e-12)) << p << ' ' << index;
+      EXPECT_LE(stress.squares[index], square * (1 + 1e-4)) << p << ' ' << index;
+    }
+  }
+}
+
 /** What a rigid foundation holds along a curve has no bound, and says on which boundary; what it may leave has one. */
 TEST(RowStresses, SayWhereNormalsTurn)
 {

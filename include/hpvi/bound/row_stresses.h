@@ -114,7 +114,8 @@ private:
   RowShape shape_of(const Part &part) const;
   Hat hat(const Part &part, unsigned int v, const dealii::Point<2> &at) const;
   std::vector<PointStress> sigma(const Part &part, unsigned int n_gauss) const;
-  double around(const Part &part, const PointStress &stress, unsigned int q, const Hat &psi) const;
+  double around(const Part &part, const PointStress &stress, const dealii::Point<2> &at,
+                const Hat &psi) const;
   unsigned int data_points(const Part &part) const;
   void add_stress(const Part &part, OfVertices &result) const;
   void add_loads(Part &part, OfVertices &result);
@@ -130,7 +131,10 @@ private:
   static TractionEnergy energy_of(const Cell &cell);
   void set_cell(unsigned int cell);
   void join_parts();
-  std::vector<PointStress> stress_at_points(const Part &part) const;
+  std::vector<PointStress> stress_at_points(const Part &part, const RowTable &table) const;
+  RowValues::Stress difference(const Part &part, const RowValues &values,
+                               const RowFields &fields) const;
+  std::array<double, 2> squares(const Part &part, const std::vector<double> &tractions) const;
   void set_missed_force(Part &part);
   std::vector<std::vector<double>> tractions_of_parts(unsigned int cell,
                                                       const std::vector<double> &tractions) const;
