@@ -219,7 +219,9 @@ Energies energies(const Field<dim> &field, const double a, const double work)
 {
   const double infinity = std::numeric_limits<double>::infinity(),
                roughly = dim == 2 ? 0. : friction_work(field, infinity),
-               friction = friction_work(field, 1e-8 * roughly), coupling = field.contact_work();
+               // slip that is round-off has no digits to find
+      friction = friction_work(field, std::max(1e-8 * roughly, 1e-14 * std::abs(a))),
+               coupling = field.contact_work();
   const double potential = 0.5 * a - work;
   const double norm =
       std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained
