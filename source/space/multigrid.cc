@@ -3,8 +3,6 @@
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
-#include <cmath>
-
 namespace hpvi
 {
 using namespace dealii;
@@ -17,16 +15,13 @@ constexpr double smoothing_range =
     40; ///< eigenvalues above the largest over this are the smoother's
 /** Unknowns of the coarsest mesh; with twice as many a factorisation in each Newton step takes longer than all the rest. */
 constexpr types::global_dof_index most_factorised = 1500;
-/** Likewise where bodies touch, which VertexSolver does not know; beyond it the matrix is assembled. */
-constexpr double most_factorised_of_bodies = 12000;
+/** Likewise where bodies touch, whose coarsest mesh has corners opposite to each other. */
+constexpr types::global_dof_index most_factorised_of_bodies = 12000;
 } // namespace
 
 bool Multigrid::is_for(const PrimalSpace<3> &space)
 {
-  const double unknowns = 3 * std::pow(space.tables.degree, 3) *
-                          space.dof_handler.get_triangulation().n_global_coarse_cells();
-  return has_cell_operator(space.tables.degree) &&
-         (!space.opposite || unknowns <= most_factorised_of_bodies);
+  return has_cell_operator(space.tables.degree);
 }
 
 Multigrid::Multigrid(const PrimalSpace<3> &space) : finest(space)
@@ -48,7 +43,8 @@ Multigrid::Multigrid(const PrimalSpace<3> &space) : finest(space)
     if (l > 0)
       level.from_below = std::make_unique<LevelTransfer>(*levels[l - 1].matrix, *level.matrix);
   }
-  if (space.opposite || levels.front().matrix->space.dof_handler.n_dofs() <= most_factorised)
+  if (levels.front().matrix->space.dof_handler.n_dofs() <=
+      (space.opposite ? most_factorised_of_bodies : most_factorised))
     factors = std::make_unique<CoarseSolver>(*levels.front().matrix);
   else
     vertices = std::make_unique<VertexSolver>(*levels.front().matrix);

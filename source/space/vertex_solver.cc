@@ -23,8 +23,9 @@ VertexSolver::VertexSolver(const MultigridLevel<float> &level)
       inserted(level.space.contact.size())
 {
   number();
-  assemble();
+  find_opposite();
   find_contact();
+  assemble();
   level.reinit(change);
 }
 
@@ -104,8 +105,16 @@ void VertexSolver::assemble()
   IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
   {
+    for (const ContactFace &face : faces)
+      for (const Dof dof : face.vertices)
+        relevant.add_range(dof, dof + 3);
     DynamicSparsityPattern pattern(relevant);
     DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
+    for (const ContactFace &face : faces)
+      for (const Dof row : face.vertices)
+        for (const Dof column : face.vertices)
+          for (unsigned int c = 0; c < 9; ++c)
+            pattern.add(row + c / 3, column + c % 3);
     SparsityTools::distribute_sparsity_pattern(pattern, owned, space.communicator(), relevant);
     A.reinit(owned, owned, pattern, space.communicator());
   }
@@ -130,6 +139,78 @@ void VertexSolver::assemble()
   A.compress(VectorOperation::add);
 }
 
+/** All processes are told of corners of masters, for which of them a slave asks is seen there. */
+void VertexSolver::find_opposite()
+{
+  const PrimalSpace<3> &space = level.space;
+  if (!space.opposite)
+    return;
+  constexpr unsigned int length =
+      7; // cell, face, corners, and a bit for each component that is held
+  std::vector<Dof> own, dofs(tables.fe.dofs_per_cell);
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->is_locally_owned() && cell->at_boundary(face) &&
+          space.is_master(cell->face(face)->boundary_id()))
+      {
+        cell->get_dof_indices(dofs);
+        own.insert(own.end(), {cell->active_cell_index(), face, 0, 0, 0, 0, 0});
+        for (unsigned int j = 0; j < 4; ++j)
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            const Dof dof =
+                dofs[tables.numbers[GeometryInfo<3>::face_to_cell_vertices(face, j)][c]];
+            if (c == 0)
+              *(own.end() - 5 + j) = dof;
+            if (constraints.is_constrained(dof))
+              own.back() |= 1u << (3 * j + c);
+          }
+      }
+  const auto all = Utilities::MPI::all_gather(space.communicator(), own);
+  std::map<std::array<Dof, 3>, const Dof *> corners; // by process, cell and face
+  for (unsigned int process = 0; process < all.size(); ++process)
+    for (const Dof *one = all[process].data(), *const end = one + all[process].size(); one != end;
+         one += length)
+      corners[{{process, one[0], one[1]}}] = one + 2;
+  for (const MasterFace &master : space.opposite->masters)
+  {
+    const Dof *const vertices = corners.at({{master.process, master.cell, master.face}});
+    for (unsigned int j = 0; j < 12; ++j)
+      if (vertices[4] >> j & 1u)
+        held.insert(vertices[j / 3] + j % 3);
+    unsigned int i = 0;
+    for (const auto *const shapes :
+         {&space.tables.rim[master.face], &space.tables.inner[master.face]})
+      for (const unsigned int shape : *shapes)
+      {
+        auto &weighted = opposite[master.nodes[i++].first];
+        weighted.clear();
+        for (unsigned int j = 0; j < 4; ++j)
+          weighted.emplace_back(
+              vertices[j], weights[shape][GeometryInfo<3>::face_to_cell_vertices(master.face, j)]);
+      }
+  }
+}
+
+/** With the opposite sign. */
+void VertexSolver::add_opposite(ContactFace &face) const
+{
+  const PrimalSpace<3> &space = level.space;
+  std::map<Dof, unsigned int> places;
+  for (const OppositeFaces::Row &row : (*space.opposite)[face.face - space.faces.data()].rows)
+    for (const auto &[vertex, weight] : opposite.at(space.opposite->nodes[row.node].first))
+    {
+      const auto [place, is_new] = places.emplace(vertex, face.vertices.size());
+      if (is_new)
+        face.vertices.push_back(vertex);
+      for (unsigned int k = 0; k < face.means.size(); ++k)
+      {
+        face.means[k].resize(face.vertices.size());
+        face.means[k][place->second] -= weight * row.moments[k];
+      }
+    }
+}
+
 void VertexSolver::find_contact()
 {
   const PrimalSpace<3> &space = level.space;
@@ -140,11 +221,14 @@ void VertexSolver::find_contact()
     faces.emplace_back();
     faces.back().face = &face;
     const FaceContactDofs &contact_dofs = space.contact_dofs_on(face);
-    faces.back().means.resize(space.tables.n_contact_dofs());
+    faces.back().means.resize(space.tables.n_contact_dofs(), std::vector<double>(4));
     for (unsigned int j = 0; j < 4; ++j)
     {
       const unsigned int corner = GeometryInfo<3>::face_to_cell_vertices(face.face, j);
-      faces.back().vertices[j] = dofs[tables.numbers[corner][0]];
+      faces.back().vertices.push_back(dofs[tables.numbers[corner][0]]);
+      for (unsigned int c = 0; c < 3; ++c)
+        if (const Dof dof = dofs[tables.numbers[corner][c]]; constraints.is_constrained(dof))
+          held.insert(dof);
       for (unsigned int k = 0; k < faces.back().means.size(); ++k)
       {
         double &mean = faces.back().means[k][j] = 0;
@@ -158,6 +242,8 @@ void VertexSolver::find_contact()
         add(contact_dofs.W, space.tables.rim[face.face]);
       }
     }
+    if (space.opposite)
+      add_opposite(faces.back());
   }
 }
 
@@ -178,17 +264,22 @@ void VertexSolver::add(const ContactFace &face, const unsigned int k,
     for (unsigned int t = 0; t < components.size(); ++t)
       of_axes += change[s][t] * outer_product(face.face->direction(components[s]),
                                               face.face->direction(components[t]));
-  FullMatrix<double> local(12, 12);
   std::vector<Dof> dofs;
-  for (unsigned int i = 0; i < 4; ++i)
+  std::vector<std::pair<unsigned int, unsigned int>> places; // of them: vertex and component
+  for (unsigned int i = 0; i < face.vertices.size(); ++i)
     for (unsigned int c = 0; c < 3; ++c)
-    {
-      dofs.push_back(face.vertices[i] + c);
-      for (unsigned int j = 0; j < 4; ++j)
-        for (unsigned int d = 0; d < 3; ++d)
-          local(3 * i + c, 3 * j + d) = face.means[k][i] * of_axes[c][d] * face.means[k][j];
-    }
-  constraints.distribute_local_to_global(local, dofs, A);
+      if (held.count(face.vertices[i] + c) == 0)
+      {
+        dofs.push_back(face.vertices[i] + c);
+        places.emplace_back(i, c);
+      }
+  FullMatrix<double> local(dofs.size(), dofs.size());
+  for (unsigned int row = 0; row < dofs.size(); ++row)
+    for (unsigned int column = 0; column < dofs.size(); ++column)
+      local(row, column) = face.means[k][places[row].first] *
+                           of_axes[places[row].second][places[column].second] *
+                           face.means[k][places[column].first];
+  A.add(dofs, local);
 }
 
 /** Of all contact dofs. */

@@ -7,6 +7,9 @@
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <map>
+#include <set>
+
 namespace hpvi
 {
 /**
@@ -16,7 +19,8 @@ namespace hpvi
  *     P'AP + sum_k w_k S_k w_k',    w_k the mean int psi_k u / int psi_k at the corners of the face,
  *
  * S being H where a contact dof slips, and A's own block where one is held: what the correction moves there is set to zero
- * on the mesh, which costs just that energy. So no corner is held, whatever the normals of its faces are.
+ * on the mesh, which costs just that energy. So no corner is held, whatever the normals of its faces are. Where another body lies
+ * opposite w_k has the corners there, too, of any process, with what a moment of the jump takes of them.
  */
 class VertexSolver
 {
@@ -48,14 +52,16 @@ private:
   };
   struct ContactFace
   {
-    std::array<dealii::types::global_dof_index, 4> vertices; ///< their first components
-    std::vector<std::array<double, 4>> means;                ///< w_k
+    std::vector<dealii::types::global_dof_index> vertices; ///< their first components
+    std::vector<std::vector<double>> means;                ///< w_k
     const ContactDofFace<3> *face;
   };
 
   void number();
   void assemble();
   void find_contact();
+  void find_opposite();
+  void add_opposite(ContactFace &face) const;
   void add_contact();
   void add(const ContactFace &face, unsigned int k, const std::vector<unsigned int> &components,
            std::size_t contact_dof);
@@ -69,7 +75,12 @@ private:
   std::vector<Node> nodes;
   std::vector<std::array<double, 8>> weights; ///< of corners, by shape function of the mesh
   std::vector<ContactFace> faces;
-  std::vector<unsigned int> constrained; ///< of this process
+  /** Corners that a node of a master takes its value from, first components with weights, by that of the node. */
+  std::map<dealii::types::global_dof_index,
+           std::vector<std::pair<dealii::types::global_dof_index, double>>>
+      opposite;
+  std::set<dealii::types::global_dof_index> held; ///< constrained ones of #faces, of any process
+  std::vector<unsigned int> constrained;          ///< of this process
   dealii::TrilinosWrappers::SparseMatrix A;
   std::vector<Block> inserted; ///< S in A, of each contact dof
   std::vector<bool> was_held;  ///< when ML was set up
