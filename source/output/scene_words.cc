@@ -228,7 +228,7 @@ std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &m
 std::string bare_joints_in_words(const Scene<2> &scene)
 {
   std::string lines;
-  for (const BareJoint &joint : bare_joints(scene))
+  for (const BareJoint<2> &joint : bare_joints(scene))
     lines += joint.sides[0] + " and " + joint.sides[1] + " lie on each other at " +
              place<2>(joint.at) + ", and no Contact names them\n";
   return lines;

@@ -78,9 +78,10 @@ std::vector<Assignment> without_pairs(const std::vector<Assignment> &all,
   return result;
 }
 
+template <int dim>
 std::vector<Assignment> with_pairs_found(const std::vector<Assignment> &all,
                                          const std::vector<std::string> &pairs,
-                                         const Scene<2> &bodies, std::string &sections)
+                                         const Scene<dim> &bodies, std::string &sections)
 {
   std::vector<Assignment> result = without_pairs(all, pairs);
   std::set<std::array<std::string, 2>> known;
@@ -96,7 +97,7 @@ std::vector<Assignment> with_pairs_found(const std::vector<Assignment> &all,
     const double within = std::strtod(value_of(all, section, "Closed within").c_str(), nullptr);
     std::vector<std::array<std::string, 2>> found;
     std::string nameless;
-    for (const BareJoint &joint : touching_sides(bodies, within))
+    for (const BareJoint<dim> &joint : touching_sides(bodies, within))
       if (!has_name(joint.sides[0]) || !has_name(joint.sides[1]))
         nameless = joint.sides[0] + " and " + joint.sides[1] + " lie on each other at " +
                    to_string(joint.at);
@@ -127,4 +128,11 @@ std::vector<Assignment> with_pairs_found(const std::vector<Assignment> &all,
   }
   return result;
 }
+
+template std::vector<Assignment> with_pairs_found(const std::vector<Assignment> &,
+                                                  const std::vector<std::string> &,
+                                                  const Scene<2> &, std::string &);
+template std::vector<Assignment> with_pairs_found(const std::vector<Assignment> &,
+                                                  const std::vector<std::string> &,
+                                                  const Scene<3> &, std::string &);
 } // namespace hpvi

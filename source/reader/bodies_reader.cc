@@ -47,8 +47,9 @@ std::vector<Entry> body_entries(const int dim, const std::string &name)
   std::vector<Entry> entries = dim == 2 ? geometry_entries<2>() : geometry_entries<3>();
   entries.push_back({"", "Surfaces", "", std::make_shared<Patterns::Anything>(),
                      "names of surfaces \"A, B\" or nothing",
-                     "The physical surfaces of File that make this body, as several bodies may "
-                     "share a file; named curves that bound them are its boundaries; empty: all."});
+                     "The physical surfaces of File, in space its volumes, that make this body, as "
+                     "several bodies may share a file; named curves, or surfaces, that bound them "
+                     "are its boundaries; empty: all."});
   entries.push_back({"", "Material", "", std::make_shared<Patterns::Anything>(),
                      "the name of a material or nothing",
                      "The Material NAME of the body; empty: those that say Where they are, and the "
@@ -206,13 +207,15 @@ void read_bodies(const Parameters &parameters, const UserNames &names, Scene<3> 
   std::vector<SpacePair> pairs;
   for (const std::string &name : names.pairs)
     pairs.push_back(read_space_pair(parameters, section_of_pair(name), name, names, singles));
-  join(names, singles, scene);
-  for (const SpacePair &pair : pairs)
+  for (SpacePair &pair : pairs)
   {
+    match_faces(parameters, singles, pair);
     if (!pair.closed.empty())
       scene.remarks.push_back(pair.closed);
-    add_parts(pair, scene);
   }
+  join(names, singles, scene);
+  for (const SpacePair &pair : pairs)
+    add_parts(pair, scene);
 }
 
 namespace

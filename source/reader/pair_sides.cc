@@ -4,6 +4,7 @@
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/pair_rules.h>
 #include <hpvi/reader/pair_sides.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/edge_projection.h>
@@ -64,43 +65,9 @@ Side<2> side_of(const NamedSide &named, const Geometry<2> &geometry)
   return result;
 }
 
-void reject_overlap(const Parameters &parameters, const std::string &section, const double depth,
-                    const std::string &place)
+std::array<std::string, 2> names_of(const PairSides &pair)
 {
-  parameters.reject(section, "Between",
-                    "names sides that lie " + to_string(depth) + " inside each other" + place +
-                        "; move the bodies apart and give an interference as a "
-                        "negative Gap, or set Closed within if none is meant");
-}
-
-/** The number of `Closed within`, and a hair for round-off of distances. */
-double read_closed(const Parameters &parameters, const std::string &section, const double size)
-{
-  constexpr double most = 0.01;
-  const double closed = parameters.number(section, "Closed within");
-  if (closed > most * size)
-    parameters.reject(section, "Closed within",
-                      "is more than 1 % of the size of the bodies, " + to_string(size) +
-                          "; give less, or move them together in the drawing");
-  return closed > 0 ? closed + same_place * size : 0.;
-}
-
-/** What counts as none of distances from @p least to @p largest, negative where sides lie inside each other. */
-std::string closed_in_words(const PairSides &pair, const double closed, const double least,
-                            const double largest)
-{
-  const std::string sides = pair.sides[0].name + " and " + pair.sides[1].name,
-                    entry = pair.section + "/Closed within";
-  if (largest - least <= 1e-6 * closed && std::abs(least) <= closed)
-    return entry + ": " + sides + " lie " + to_string(std::abs(least)) +
-           (least < 0 ? " inside each other" : " apart") + " in the drawing, which counts as none";
-  const std::string distances = entry + ": distances of " + sides + " in the drawing, from " +
-                                to_string(least) + " to " + to_string(largest) + ", ";
-  return distances + (least > closed ? "are all larger, and count"
-                      : -least <= closed && largest <= closed
-                          ? "count as none"
-                          : "count as none up to it, so that the sides lie flat on each "
-                            "other there; if they shall touch in a point, move a body");
+  return {{pair.sides[0].name, pair.sides[1].name}};
 }
 
 /** What is positive where @p facing is, in the part. */
@@ -137,32 +104,10 @@ void cut_at_ends(const Parameters &parameters, const FacingPart &facing, PairSid
     pair.where[k] = inside_of(own, pair.sides[k].where);
     pair.distance[k] = facing.distance > 0 ? expression<2>(facing.distance) : nullptr;
   }
-  if (hangs_over[0] && hangs_over[1])
-    parameters.reject(pair.section, "Between",
-                      "has edges of both sides that hang over the end of the other; give one body "
-                      "a vertex where the other ends, by its Subdivisions");
-  for (const unsigned int k : {0, 1})
-    if (hangs_over[k] && pair.slave == k)
-      parameters.reject(pair.section, "Slave",
-                        "has an edge that hangs over the end of the other side; give it a vertex "
-                        "there, or set automatic");
-    else if (hangs_over[k])
-      pair.slave = 1 - k;
+  choose_slave(parameters, pair.section, hangs_over, pair.slave);
   pair.line = facing;
 }
 
-/** @p distance, but 0 up to @p closed and to the depth @p doubt. */
-Expression<2> beyond(const double closed, const double doubt, const Expression<2> &distance)
-{
-  if (closed == 0 && doubt == 0)
-    return distance;
-  return expression<2>(std::function<double(const Point<2> &)>(
-      [closed, doubt, distance](const Point<2> &x)
-      {
-        const double value = distance->value(x);
-        return value >= -std::max(closed, doubt) && value <= closed ? 0. : value;
-      }));
-}
 } // namespace
 
 bool NamedSide::has(const CoarseFace<2> &face) const
@@ -233,10 +178,11 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
   if (!problem.empty())
     parameters.reject(section, "Between",
                       "names sides that " + problem + "; name two that lie opposite");
-  const double closed = read_closed(parameters, section, size);
+  const double closed = read_closed_within(parameters, section, size);
   if (facing && closed > 0)
   {
-    pair.closed = closed_in_words(pair, closed, facing->distance, facing->distance);
+    pair.closed =
+        closed_in_words(section, names_of(pair), closed, facing->distance, facing->distance);
     if (std::abs(facing->distance) <= closed)
       facing->distance = 0;
   }
@@ -315,7 +261,7 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
                           (pair.slave ? "; name the other one or set automatic"
                                       : "; name two that lie opposite, or parts of them, or give "
                                         "them vertices where they do"));
-  const double closed = read_closed(parameters, pair.section, size),
+  const double closed = read_closed_within(parameters, pair.section, size),
                within = std::max(closed, same_place * size);
   // Curves that meet, and lie inside each other by no more than splines leave open between their points.
   const bool is_in_doubt =
@@ -330,7 +276,7 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
         ", less than splines through their vertices leave open, " + to_string(edges.doubt) +
         (touches ? ": that counts as touching" : ": that depth counts as none"));
   if (closed > 0)
-    pair.closed = closed_in_words(pair, closed, edges.least, edges.largest);
+    pair.closed = closed_in_words(pair.section, names_of(pair), closed, edges.least, edges.largest);
   if (const auto &left_out = edges.left_out; left_out.number > 0)
   {
     const NamedSide &side = pair.sides[edges.slave.value_or(0)];
@@ -344,8 +290,8 @@ void match_edges(const Parameters &parameters, std::vector<Scene<2>> &singles, P
   for (const unsigned int k : {0, 1})
   {
     pair.distance[k] = touches ? nullptr
-                               : beyond(closed, is_in_doubt ? -edges.least : 0,
-                                        distance_along_normal(sides[k], sides[1 - k]));
+                               : beyond<2>(closed, is_in_doubt ? -edges.least : 0,
+                                           distance_along_normal(sides[k], sides[1 - k]));
     pair.where[k] = expression<2>(
         [side = sides[k], part = pair.sides[k].where, own = edges.in_pair[k]](const Point<2> &x)
         { return (!part || part->value(x) > 0) && own[side.nearest_edge(x)] ? 1. : -1.; });

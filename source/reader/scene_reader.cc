@@ -446,6 +446,7 @@ UserNames names_in(const ParameterFile &file)
 namespace
 {
 /** With the pairs that `Between = automatic` finds, as if the file named them; @p sections are these. */
+template <int dim>
 ParameterFile with_pairs(const ParameterFile &given, std::string &sections)
 {
   ParameterFile file = given;
@@ -453,11 +454,11 @@ ParameterFile with_pairs(const ParameterFile &given, std::string &sections)
   if (pairs.empty() || body_names(given.assignments).empty())
     return file;
   file.assignments = without_pairs(given.assignments, pairs);
-  const UserNames names = names_in<2>(file);
+  const UserNames names = names_in<dim>(file);
   const auto parameters = std::make_shared<Parameters>(
-      scene_entries(2, names), scene_aliases(2, names.sides, names.interfaces), file.name);
+      scene_entries(dim, names), scene_aliases(dim, names.sides, names.interfaces), file.name);
   parameters->read(file.assignments);
-  Scene<2> bodies;
+  Scene<dim> bodies;
   bodies.parameters = parameters;
   read_body(*parameters, names, bodies);
   file.assignments = with_pairs_found(given.assignments, pairs, bodies, sections);
@@ -470,7 +471,7 @@ Scene<dim> read_scene(const ParameterFile &given, const SceneUse use,
                       const unsigned int n_processes)
 {
   std::string found_pairs;
-  const ParameterFile written = dim == 2 ? with_pairs(given, found_pairs) : given;
+  const ParameterFile written = with_pairs<dim>(given, found_pairs);
   const std::string &file = written.name;
   const UserNames names = names_in<dim>(written);
   const auto parameters = std::make_shared<Parameters>(

@@ -4,14 +4,19 @@
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/grid_cuts.h>
 #include <hpvi/reader/input/parameters.h>
+#include <hpvi/reader/pair_rules.h>
 #include <hpvi/reader/space_pairs.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/box_tree.h>
+#include <hpvi/scene/faces_across.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <functional>
+#include <memory>
+#include <utility>
 
 namespace hpvi
 {
@@ -61,105 +66,105 @@ SpaceSide side_in_space(const Parameters &parameters, const std::string &section
                         ", which is no side; this scene has: " + listed(all, "and"));
 }
 
-/** A rectangle across an axis, by its ends along each of the others. */
-struct Rectangle
+/** Coarse faces of a side, before bodies are one geometry. */
+struct SideFaces
 {
-  unsigned int axis;
-  Point<3> lower, upper;
-
-  /** Positive inside, the distance to the nearest end [length]. */
-  double inside(const Point<3> &x) const
-  {
-    double result = std::numeric_limits<double>::max();
-    for (unsigned int d = 0; d < 3; ++d)
-      if (d != axis)
-        result = std::min({result, x[d] - lower[d], upper[d] - x[d]});
-    return result;
-  }
+  std::vector<Side<3>::Piece> all, named; ///< named: those of the part that `Between` names
+  std::vector<unsigned int> number;       ///< of these among all
 };
 
-/** Of the box whose side it is. */
-Rectangle rectangle_of(const Geometry<3> &geometry, const unsigned int side)
+SideFaces faces_of(const SpacePair &pair, const unsigned int k,
+                   const std::vector<Scene<3>> &singles)
 {
-  return {side / 2, geometry.point({0., 0., 0.}), geometry.point({1., 1., 1.})};
+  SideFaces result;
+  for (const CoarseFace<3> &face : coarse_faces(singles[pair.bodies[k]].geometry, pair.sides[k]))
+  {
+    Side<3>::Piece piece = face.corners;
+    if (normal_of(piece) * (middle_of(face) - face.inside) < 0) // as those of a grid may be
+      std::swap(piece[1], piece[2]);
+    if (const Expression<3> &part = pair.part[k]; !part || part->value(middle_of(face)) > 0)
+    {
+      result.named.push_back(piece);
+      result.number.push_back(result.all.size());
+    }
+    result.all.push_back(piece);
+  }
+  return result;
 }
 
-/** Lines at the ends of @p part that lie inside of the box. */
-void cut_box(Scene<3> &body, const Rectangle &part, const std::string &path)
+/** Lines of a box where the other side ends, along the axes of the side. */
+void cut_box(Scene<3> &body, const unsigned int side, const std::vector<Side<3>::Piece> &other,
+             const std::string &path)
 {
-  const Rectangle all = rectangle_of(body.geometry, 0);
-  const Point<3> &low = all.lower, &high = all.upper;
+  const Point<3> low = body.geometry.point({0., 0., 0.}), high = body.geometry.point({1., 1., 1.});
   for (unsigned int d = 0; d < 3; ++d)
   {
+    if (d == side / 2)
+      continue;
+    std::array<double, 2> ends{{high[d], low[d]}};
+    for (const Side<3>::Piece &face : other)
+      for (const Point<3> &corner : face)
+        ends = {{std::min(ends[0], corner[d]), std::max(ends[1], corner[d])}};
     std::vector<double> lines;
-    for (const double end : {part.lower[d], part.upper[d]})
+    for (const double end : ends)
       if (const double place = (end - low[d]) / (high[d] - low[d]);
-          d != part.axis && place > same_place && place < 1 - same_place)
+          place > same_place && place < 1 - same_place)
         lines.push_back(place);
     add_lines(body, d, lines, path);
   }
 }
 
-/** The number of `Closed within`, and a hair for round-off of distances. */
-double read_closed_within(const Parameters &parameters, const std::string &section,
-                          const double size)
+/** Of many faces that of a point. */
+class FaceFinder
 {
-  constexpr double most = 0.01;
-  const double closed = parameters.number(section, "Closed within");
-  if (closed > most * size)
-    parameters.reject(section, "Closed within",
-                      "is more than 1 % of the size of the bodies, " + to_string(size) +
-                          "; give less, or move them together in the drawing");
-  return closed > 0 ? closed + same_place * size : 0.;
-}
-
-/** Where both lie opposite to each other. */
-Rectangle common_rectangle(const Parameters &parameters, const SpacePair &pair,
-                           const std::vector<Scene<3>> &singles, const double hair)
-{
-  const Rectangle one = rectangle_of(singles[pair.bodies[0]].geometry, pair.sides[0]),
-                  other = rectangle_of(singles[pair.bodies[1]].geometry, pair.sides[1]);
-  Rectangle result = one;
-  for (unsigned int d = 0; d < 3; ++d)
-    if (d != one.axis)
-    {
-      result.lower[d] = std::max(one.lower[d], other.lower[d]);
-      result.upper[d] = std::min(one.upper[d], other.upper[d]);
-      if (result.upper[d] - result.lower[d] <= hair)
-        parameters.reject(pair.section, "Between",
-                          "names sides that lie beside each other; name two that lie opposite");
-    }
-  return result;
-}
-
-void find_distance(const Parameters &parameters, SpacePair &pair,
-                   const std::vector<Scene<3>> &singles, const double size)
-{
-  const unsigned int axis = pair.sides[0] / 2;
-  const auto place = [&](const unsigned int k)
+public:
+  explicit FaceFinder(const std::vector<Side<3>::Piece> &faces) : faces(faces), tree(boxes(faces))
   {
-    const Rectangle all = rectangle_of(singles[pair.bodies[k]].geometry, pair.sides[k]);
-    return (pair.sides[k] % 2 == 0 ? all.lower : all.upper)[axis];
-  };
-  pair.distance = (pair.sides[0] % 2 == 1 ? 1 : -1) * (place(1) - place(0));
-  if (std::abs(pair.distance) <= same_place * size)
-    pair.distance = 0;
-  if (const double closed = read_closed_within(parameters, pair.section, size); closed > 0)
-  {
-    pair.closed = pair.section + "/Closed within: " + pair.called[0] + " and " + pair.called[1] +
-                  " lie " + to_string(std::abs(pair.distance)) +
-                  (pair.distance < 0 ? " inside each other" : " apart") +
-                  " in the drawing, which " +
-                  (std::abs(pair.distance) <= closed ? "counts as none" : "is more, and counts");
-    if (std::abs(pair.distance) <= closed)
-      pair.distance = 0;
   }
-  if (pair.distance < 0)
-    parameters.reject(pair.section, "Between",
-                      "names sides that lie " + to_string(-pair.distance) +
-                          " inside each other; move the bodies apart and give an interference as "
-                          "a negative Gap, or set Closed within if none is meant");
+
+  unsigned int face_at(const Point<3> &x) const
+  {
+    return tree.nearest(x, [&](const unsigned int f) { return distance(faces[f], x); });
+  }
+
+private:
+  static std::vector<BoundingBox<3>> boxes(const std::vector<Side<3>::Piece> &faces)
+  {
+    std::vector<BoundingBox<3>> result;
+    for (const Side<3>::Piece &face : faces)
+      result.emplace_back(std::vector<Point<3>>(face.begin(), face.end()));
+    return result;
+  }
+
+  const std::vector<Side<3>::Piece> faces;
+  const BoxTree<3> tree;
+};
+
+/** Which faces are in the pair, as a function that is positive there, and the distance to what is opposite. */
+void place_pair(SpacePair &pair, const unsigned int k, const SideFaces &own,
+                const FacingFaces &facing, const double closed, const bool touches)
+{
+  const auto finder = std::make_shared<const FaceFinder>(own.all);
+  std::vector<FacingFaces::Face> opposite(own.all.size());
+  for (unsigned int f = 0; f < own.number.size(); ++f)
+    opposite[own.number[f]] = facing.faces[f];
+  pair.where[k] =
+      expression<3>([finder, opposite](const Point<3> &x)
+                    { return opposite[finder->face_at(x)].covered > uncovered_share ? 1. : -1.; });
+  if (touches)
+    return;
+  if (facing.largest - facing.least <= 1e-12 * facing.largest)
+    pair.distance[k] = expression<3>(facing.least);
+  else
+    pair.distance[k] = beyond<3>(closed, 0.,
+                                 expression<3>(std::function<double(const Point<3> &)>(
+                                     [finder, opposite](const Point<3> &x)
+                                     {
+                                       const FacingFaces::Face &face = opposite[finder->face_at(x)];
+                                       return face.slope * (x - face.at);
+                                     })));
 }
+
 } // namespace
 
 SpacePair read_space_pair(const Parameters &parameters, const std::string &section,
@@ -168,20 +173,17 @@ SpacePair read_space_pair(const Parameters &parameters, const std::string &secti
 {
   const std::vector<std::string> sides =
       Utilities::split_string_list(parameters.text(section, "Between"), ',');
-  if (sides == std::vector<std::string>{"automatic"})
-    parameters.reject(section, "Between",
-                      "finds sides in the plane alone; name two, BODY.side, BODY.side");
   if (sides.size() != 2)
-    parameters.reject(section, "Between", "names no two sides; give BODY.side, BODY.side");
-  SpacePair pair{name, section, {}, {}, {}, {}, 0, std::nullopt};
-  std::array<Expression<3>, 2> parts;
+    parameters.reject(section, "Between",
+                      "names no two sides; give BODY.side, BODY.side, or automatic");
+  SpacePair pair{name, section, {}, {}, {}, {}, {}, {}, std::nullopt};
   for (const unsigned int k : {0, 1})
   {
     const SpaceSide side = side_in_space(parameters, section, sides[k], names, singles);
     pair.bodies[k] = side.body;
     pair.sides[k] = side.side;
     pair.called[k] = sides[k];
-    parts[k] = side.where;
+    pair.part[k] = side.where;
   }
   if (pair.bodies[0] == pair.bodies[1])
     parameters.reject(section, "Between",
@@ -194,30 +196,43 @@ SpacePair read_space_pair(const Parameters &parameters, const std::string &secti
                         "is none of the two sides; give automatic or one of Between");
     pair.slave = found - sides.begin();
   }
-  for (const unsigned int b : pair.bodies)
-    if (singles[b].geometry.shape != Shape::box)
-      parameters.reject(section, "Between",
-                        "names a side of Body " + names.bodies[b] +
-                            ", which is no box; bodies in space that touch are boxes, set its "
-                            "Shape = box");
-  if (pair.sides[0] / 2 != pair.sides[1] / 2 || pair.sides[0] == pair.sides[1])
-    parameters.reject(section, "Between",
-                      "names sides that do not face each other; name two that lie opposite");
-  const double size = std::max(singles[pair.bodies[0]].geometry.diameter(),
-                               singles[pair.bodies[1]].geometry.diameter());
-  const Rectangle both = common_rectangle(parameters, pair, singles, same_place * size);
-  find_distance(parameters, pair, singles, size);
   for (const unsigned int k : {0, 1})
-  {
-    cut_box(singles[pair.bodies[k]], both, section + "/Between");
-    pair.where[k] = expression<3>(
-        [both, part = parts[k], other = parts[1 - k]](const Point<3> &x)
-        {
-          const bool is_part = (!part || part->value(x) > 0) && (!other || other->value(x) > 0);
-          return is_part ? both.inside(x) : -1.;
-        });
-  }
+    if (Scene<3> &body = singles[pair.bodies[k]]; body.geometry.shape == Shape::box)
+      cut_box(body, pair.sides[k], faces_of(pair, 1 - k, singles).named, section + "/Between");
   return pair;
+}
+
+void match_faces(const Parameters &parameters, const std::vector<Scene<3>> &singles,
+                 SpacePair &pair)
+{
+  const double size = std::max(singles[pair.bodies[0]].geometry.diameter(),
+                               singles[pair.bodies[1]].geometry.diameter()),
+               hair = same_place * size;
+  const std::array<SideFaces, 2> sides{{faces_of(pair, 0, singles), faces_of(pair, 1, singles)}};
+  const std::array<FacingFaces, 2> facing{{facing_faces(sides[0].named, sides[1].named, hair),
+                                           facing_faces(sides[1].named, sides[0].named, hair)}};
+  if (!facing[0].any() || !facing[1].any())
+    parameters.reject(pair.section, "Between",
+                      std::string("names sides that ") +
+                          (facing[0].look_at_each_other ? "lie beside" : "do not face") +
+                          " each other; name two that lie opposite");
+  for (const FacingFaces &one : facing)
+    if (one.step)
+      parameters.reject(pair.section, "Between",
+                        "names sides of which one has a step or an edge opposite to a face of the "
+                        "other, at " +
+                            to_string(*one.step) +
+                            "; give the other one an edge there, or name parts of sides");
+  const double closed = read_closed_within(parameters, pair.section, size), least = facing[0].least,
+               within = std::max(closed, hair);
+  if (closed > 0)
+    pair.closed = closed_in_words(pair.section, pair.called, closed, least, facing[0].largest);
+  if (least < -within)
+    reject_overlap(parameters, pair.section, -least, " at " + to_string(facing[0].at_least));
+  choose_slave(parameters, pair.section, {{!facing[0].are_covered(), !facing[1].are_covered()}},
+               pair.slave);
+  for (const unsigned int k : {0, 1})
+    place_pair(pair, k, sides[k], facing[k], closed, facing[0].largest <= within);
 }
 
 void add_parts(const SpacePair &read, Scene<3> &scene)
@@ -237,7 +252,7 @@ void add_parts(const SpacePair &read, Scene<3> &scene)
     part.where = read.where[k];
     part.pair = scene.pairs.size();
     part.pair_name = read.name;
-    part.gap = read.distance > 0 ? expression<3>(read.distance) : nullptr;
+    part.gap = read.distance[k];
     scene.boundaries.push_back(part);
   }
   scene.pairs.push_back(pair);

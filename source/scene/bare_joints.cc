@@ -4,6 +4,7 @@
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_search.h>
 #include <hpvi/scene/exact_side.h>
+#include <hpvi/scene/faces_across.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,16 @@ struct FreeSide
   ExactSide drawn;
 };
 
+template <int dim>
+std::string called(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
+{
+  return boundary.name.empty()
+             ? "a side of " +
+                   scene.geometry.bodies[scene.geometry.body_of_side(boundary.side)].name +
+                   " without a name"
+             : boundary.name;
+}
+
 std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
 {
   const std::vector<Side<2>> sides = sides_of(scene);
@@ -36,10 +47,8 @@ std::vector<FreeSide> sides_without_pair(const Scene<2> &scene)
     for (unsigned int k = 0; k < side.pieces.size(); ++k)
       edges.push_back({side.pieces[k], side.curves[k]});
     const unsigned int body = scene.geometry.body_of_side(boundary.side);
-    result.push_back({boundary.name.empty()
-                          ? "a side of " + scene.geometry.bodies[body].name + " without a name"
-                          : boundary.name,
-                      body, boundary.has_displacement() || boundary.symmetry || boundary.plate,
+    result.push_back({called(scene, boundary), body,
+                      boundary.has_displacement() || boundary.symmetry || boundary.plate,
                       ExactSide(edges)});
   }
   return result;
@@ -91,9 +100,9 @@ std::optional<Point<2>> place_of_both(const FindPlace find, const FreeSide &one,
 }
 } // namespace
 
-std::vector<BareJoint> bare_joints(const Scene<2> &scene)
+std::vector<BareJoint<2>> bare_joints(const Scene<2> &scene)
 {
-  std::vector<BareJoint> result;
+  std::vector<BareJoint<2>> result;
   if (scene.geometry.bodies.empty())
     return result;
   const double size = scene.geometry.diameter();
@@ -109,9 +118,9 @@ std::vector<BareJoint> bare_joints(const Scene<2> &scene)
   return result;
 }
 
-std::vector<BareJoint> touching_sides(const Scene<2> &scene, const double within)
+std::vector<BareJoint<2>> touching_sides(const Scene<2> &scene, const double within)
 {
-  std::vector<BareJoint> result;
+  std::vector<BareJoint<2>> result;
   const double near = std::max(within, same_place * scene.geometry.diameter());
   const std::vector<FreeSide> sides = sides_without_pair(scene);
   for (const FreeSide &one : sides)
@@ -123,6 +132,25 @@ std::vector<BareJoint> touching_sides(const Scene<2> &scene, const double within
             result.push_back({{{one.name, other.name}}, *at});
             break;
           }
+  return result;
+}
+
+std::vector<BareJoint<3>> touching_sides(const Scene<3> &scene, const double within)
+{
+  std::vector<BareJoint<3>> result;
+  const double hair = same_place * scene.geometry.diameter(), near = std::max(within, hair);
+  const std::vector<Side<3>> sides = sides_of(scene);
+  for (const BoundaryCondition<3> &one : scene.boundaries)
+    for (const BoundaryCondition<3> &other : scene.boundaries)
+    {
+      if (one.pair || other.pair || sides[one.id].pieces.empty() ||
+          sides[other.id].pieces.empty() ||
+          scene.geometry.body_of_side(one.side) >= scene.geometry.body_of_side(other.side))
+        continue;
+      const FacingFaces facing = facing_faces(sides[one.id].pieces, sides[other.id].pieces, hair);
+      if (facing.any() && std::abs(facing.least) <= near)
+        result.push_back({{{called(scene, one), called(scene, other)}}, facing.at_least});
+    }
   return result;
 }
 } // namespace hpvi

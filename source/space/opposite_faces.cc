@@ -2,7 +2,9 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
-#include <hpvi/space/common_part.h>
+#include <hpvi/base/tolerances.h>
+#include <hpvi/scene/faces_across.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/space/opposite_faces.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,16 +28,23 @@ namespace
 {
 using Cell = DoFHandler<3>::active_cell_iterator;
 
-constexpr double uncovered =
-    1e-6; ///< of a slave's face: what round-off at the ends of sides may leave
-
-/** Corners of a face in order, of which deal.II swaps the last two. */
-std::array<Point<3>, 4> around(const CellMap<3> &map, const unsigned int face)
+/** With its outer normal. */
+Side<3>::Piece piece_of(const CellMap<3> &map, const unsigned int face)
 {
-  std::array<Point<3>, 4> result;
+  Side<3>::Piece result;
   for (unsigned int v = 0; v < 4; ++v)
-    result[v ^ (v >> 1)] = map.vertices()[GeometryInfo<3>::face_to_cell_vertices(face, v)];
+    result[v] = map.vertices()[GeometryInfo<3>::face_to_cell_vertices(face, v)];
+  if (face % 2 == 0)
+    std::swap(result[1], result[2]);
   return result;
+}
+
+FacesFromAll pieces_of(const std::vector<MasterFace> &masters)
+{
+  std::vector<Side<3>::Piece> result;
+  for (const MasterFace &master : masters)
+    result.push_back(piece_of(master.map(), master.face));
+  return FacesFromAll(std::move(result));
 }
 
 OppositeNode node_at(const Point<3> &x, const types::global_dof_index first,
@@ -90,102 +99,6 @@ std::vector<MasterFace> own_masters(const DoFHandler<3> &dof_handler, const BoxT
     }
   return result;
 }
-
-/** Axes in the plane of a face of a slave. */
-struct FacePlane
-{
-  Point<3> origin;
-  ContactAxes<3> axes;
-
-  Point<2> at(const Point<3> &x) const
-  {
-    return {(x - origin) * axes.tangents[0], (x - origin) * axes.tangents[1]};
-  }
-
-  Point<3> point(const Point<2> &x) const
-  {
-    return origin + x[0] * axes.tangents[0] + x[1] * axes.tangents[1];
-  }
-
-  ConvexPolygon polygon(const std::array<Point<3>, 4> &corners) const
-  {
-    ConvexPolygon result;
-    for (const Point<3> &corner : corners)
-      result.push_back(at(corner));
-    if (area_of(result) < 0)
-      std::reverse(result.begin(), result.end());
-    return result;
-  }
-};
-
-/** Masters as seen along one normal, in squares of a grid: of thousands a few are looked at. */
-class MastersAcross
-{
-public:
-  MastersAcross(const std::vector<MasterFace> &masters, const ContactAxes<3> &axes)
-      : plane{Point<3>(), axes}, polygons(masters.size())
-  {
-    double size = 0;
-    for (unsigned int m = 0; m < masters.size(); ++m)
-    {
-      const CellMap<3> map = masters[m].map();
-      Point<3> middle(0.5, 0.5, 0.5);
-      middle[masters[m].face / 2] = masters[m].face % 2;
-      if (map.normal(masters[m].face, middle) * axes.normal > -same_way)
-        continue; // it looks away, or is seen from its edge
-      polygons[m] = plane.polygon(around(map, masters[m].face));
-      for (unsigned int d = 0; d < 2; ++d)
-        size = std::max(size, extent(polygons[m], d)[1] - extent(polygons[m], d)[0]);
-    }
-    width = size > 0 ? size : 1;
-    for (unsigned int m = 0; m < masters.size(); ++m)
-      if (!polygons[m].empty())
-        for_squares(polygons[m],
-                    [&](const std::array<long, 2> &square) { by_square[square].push_back(m); });
-  }
-
-  /** Numbers, ascending, of those that may lie opposite to a face. */
-  std::set<unsigned int> beside(const ConvexPolygon &polygon) const
-  {
-    std::set<unsigned int> result;
-    for_squares(polygon,
-                [&](const std::array<long, 2> &square)
-                {
-                  if (const auto found = by_square.find(square); found != by_square.end())
-                    result.insert(found->second.begin(), found->second.end());
-                });
-    return result;
-  }
-
-  const FacePlane plane;
-  std::vector<ConvexPolygon> polygons; ///< by master; empty: it faces the other way
-
-private:
-  static constexpr double same_way = 0.1; ///< cosine of the angle between both faces, at least
-
-  static std::array<double, 2> extent(const ConvexPolygon &polygon, const unsigned int d)
-  {
-    std::array<double, 2> result{{polygon[0][d], polygon[0][d]}};
-    for (const Point<2> &x : polygon)
-      result = {{std::min(result[0], x[d]), std::max(result[1], x[d])}};
-    return result;
-  }
-
-  template <class Take>
-  void for_squares(const ConvexPolygon &polygon, const Take &take) const
-  {
-    std::array<std::array<long, 2>, 2> range;
-    for (unsigned int d = 0; d < 2; ++d)
-      for (unsigned int end = 0; end < 2; ++end)
-        range[d][end] = static_cast<long>(std::floor(extent(polygon, d)[end] / width));
-    for (long i = range[0][0]; i <= range[0][1]; ++i)
-      for (long j = range[1][0]; j <= range[1][1]; ++j)
-        take({{i, j}});
-  }
-
-  double width = 1;
-  std::map<std::array<long, 2>, std::vector<unsigned int>> by_square;
-};
 
 /** Lagrange's polynomials at the nodes of a cell, by shape function and axis. */
 class NodalPolynomials
@@ -255,12 +168,36 @@ Point<3> reference_on(const CellMap<3> &map, const unsigned int face, const Poin
   return reference;
 }
 
+/**
+ * Points a direction that a Gauss rule on a face needs beside those that polynomials do, for 1e-12: the inverse of a bilinear map has a
+ * branch point where its determinant vanishes, which is linear along a line. At r times the least on the face the largest one leaves it at
+ * z = 1 + 2/(r^2 - 1) of half its width from its middle, and n points have an error like (z + (z^2 - 1)^1/2)^-2n.
+ */
+unsigned int more_points(const CellMap<3> &map, const unsigned int face)
+{
+  constexpr double digits = 28; // 2 ln 1e6
+  constexpr unsigned int most = 20;
+  double least = std::numeric_limits<double>::max(), largest = 0;
+  for (unsigned int v = 0; v < 4; ++v)
+  {
+    const double measure = map.face_measure(
+        face, GeometryInfo<3>::unit_cell_vertex(GeometryInfo<3>::face_to_cell_vertices(face, v)));
+    least = std::min(least, measure);
+    largest = std::max(largest, measure);
+  }
+  if (largest <= (1 + 1e-12) * least)
+    return 0;
+  const double r = largest / least, z = 1 + 2 / (r * r - 1);
+  return std::min<double>(most, std::ceil(digits / 2 / std::log(z + std::sqrt(z * z - 1))));
+}
+
 /** Puts together what lies opposite to one face after the other. */
 class Search
 {
 public:
   Search(const Scene<3> &scene, const BoxTables<3> &tables, const std::vector<MasterFace> &masters)
-      : scene(scene), tables(tables), masters(masters), polynomials(tables)
+      : scene(scene), tables(tables), masters(masters), pieces(pieces_of(masters)),
+        polynomials(tables)
   {
     for (const MasterFace &master : masters)
       shapes.push_back(shapes_on(tables, master.face));
@@ -271,37 +208,28 @@ public:
   OppositeFaces::Opposite opposite(const ContactDofFace<3> &slave, const NodeOf &node_of);
 
 private:
-  const MastersAcross &across(const ContactAxes<3> &axes);
   void integrate(const ContactDofFace<3> &slave, const CellMap<3> &map, const FacePlane &plane,
                  const ConvexPolygon &polygon, unsigned int master);
 
   const Scene<3> &scene;
   const BoxTables<3> &tables;
   const std::vector<MasterFace> &masters;
+  const FacesFromAll pieces; ///< by master
   const NodalPolynomials polynomials;
   std::vector<std::vector<unsigned int>> shapes; ///< by master
-  std::vector<std::pair<Tensor<1, 3>, std::unique_ptr<const MastersAcross>>> known;
   std::map<std::pair<unsigned int, unsigned int>, std::vector<double>>
       integrals;             ///< of psi_k phi_d, by master and node
   std::vector<double> areas; ///< int psi_k by the same rule
 };
-
-const MastersAcross &Search::across(const ContactAxes<3> &axes)
-{
-  for (const auto &[normal, view] : known)
-    if ((normal - axes.normal).norm() < 1e-12)
-      return *view;
-  known.emplace_back(axes.normal, std::make_unique<const MastersAcross>(masters, axes));
-  return *known.back().second;
-}
 
 void Search::integrate(const ContactDofFace<3> &slave, const CellMap<3> &map,
                        const FacePlane &plane, const ConvexPolygon &polygon,
                        const unsigned int master)
 {
   const CellMap<3> other = masters[master].map();
-  const unsigned int exact = 2 * tables.degree - 1,
-                     n = map.is_affine() && other.is_affine() ? exact : exact + 4,
+  const unsigned int n = 2 * tables.degree - 1 +
+                         std::max(more_points(map, slave.face),
+                                  more_points(other, masters[master].face)),
                      n_dofs = tables.n_contact_dofs();
   std::vector<double> psi(n_dofs);
   for (const WeightedPoint &point : rule_on(polygon, n))
@@ -329,40 +257,35 @@ template <class NodeOf>
 OppositeFaces::Opposite Search::opposite(const ContactDofFace<3> &slave, const NodeOf &node_of)
 {
   const CellMap<3> map = map_of<3>(slave.cell);
-  const auto corners = around(map, slave.face);
-  const MastersAcross &view = across(slave.axes);
-  FacePlane plane{corners[0], slave.axes};
-  const ConvexPolygon seen = view.plane.polygon(corners), own = plane.polygon(corners);
-  const Tensor<1, 2> shift = seen[0] - own[0];
+  const Side<3>::Piece piece = piece_of(map, slave.face);
+  const FacesAcross &view = pieces.across(slave.axes);
+  const FacePlane plane = view.plane_of(piece);
   const auto &pair =
       scene.pairs[*scene.boundaries[slave.cell->face(slave.face)->boundary_id()].pair];
   OppositeFaces::Opposite result;
   integrals.clear();
   areas.assign(tables.n_contact_dofs(), 0.);
+  const double area = area_of(piece);
   double covered = 0;
-  for (const unsigned int m : view.beside(seen))
+  for (const FacesAcross::Part &part : view.opposite(piece,
+                                                     [&](const unsigned int m) {
+                                                       return masters[m].boundary ==
+                                                                  pair.parts[0] ||
+                                                              masters[m].boundary == pair.parts[1];
+                                                     }))
   {
-    if (masters[m].boundary != pair.parts[0] && masters[m].boundary != pair.parts[1])
-      continue;
-    ConvexPolygon other = view.polygons[m];
-    for (Point<2> &x : other)
-      x -= shift;
-    const ConvexPolygon polygon = common_part(own, other);
-    const double area = polygon.empty() ? 0. : area_of(polygon);
-    if (area <= 1e-14 * area_of(own))
-      continue;
-    covered += area;
-    integrate(slave, map, plane, polygon, m);
-    result.parts.push_back({m, {}});
-    for (const Point<2> &x : polygon)
+    covered += area_of(part.polygon);
+    integrate(slave, map, plane, part.polygon, part.opposite);
+    result.parts.push_back({part.opposite, {}});
+    for (const Point<2> &x : part.polygon)
       result.parts.back().corners.push_back(plane.point(x));
   }
-  if (std::abs(covered / area_of(own) - 1) > uncovered)
-    throw NumericalFailure(
-        "a face of a body at " + to_string(slave.cell->face(slave.face)->center()) +
-        " lies opposite to " + (covered < area_of(own) ? "no" : "more than one") +
-        " face of the other one along a part of it; give both bodies cells that "
-        "end where the other one does");
+  if (std::abs(covered / area - 1) > uncovered_share)
+    throw NumericalFailure("a face of a body at " +
+                           to_string(slave.cell->face(slave.face)->center()) +
+                           " lies opposite to " + (covered < area ? "no" : "more than one") +
+                           " face of the other one along a part of it; give both bodies cells that "
+                           "end where the other one does");
   std::map<unsigned int, unsigned int> rows; // by node
   for (const auto &[place, sums] : integrals)
   {
@@ -492,10 +415,13 @@ OppositeFaces::Place OppositeFaces::place(const unsigned int face, const Point<3
   return {master, reference_on(maps[master], masters[master].face, x, normal)};
 }
 
-std::vector<OppositeFaces::PartPoint>
-OppositeFaces::points_of(const Part &part, const ContactAxes<3> &axes, const unsigned int n) const
+std::vector<OppositeFaces::PartPoint> OppositeFaces::points_of(const Part &part,
+                                                               const ContactDofFace<3> &slave,
+                                                               const unsigned int n) const
 {
-  const FacePlane plane{part.corners[0], axes};
+  const FacePlane plane{part.corners[0], slave.axes};
+  const Tensor<1, 3> &normal = slave.axes.normal;
+  const CellMap<3> own = map_of<3>(slave.cell);
   ConvexPolygon polygon;
   for (const Point<3> &corner : part.corners)
     polygon.push_back(plane.at(corner));
@@ -503,8 +429,8 @@ OppositeFaces::points_of(const Part &part, const ContactAxes<3> &axes, const uns
   for (const WeightedPoint &point : rule_on(polygon, n))
   {
     const Point<3> x = plane.point(point.x);
-    result.push_back({x, std::abs(point.weight),
-                      reference_on(maps[part.master], masters[part.master].face, x, axes.normal)});
+    result.push_back({reference_on(own, slave.face, x, normal), std::abs(point.weight),
+                      reference_on(maps[part.master], masters[part.master].face, x, normal)});
   }
   return result;
 }

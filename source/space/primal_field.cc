@@ -120,19 +120,15 @@ void PrimalField<dim>::find_exerted()
     for (const FieldFace<dim> &face : this->faces())
       if (face.condition->pair && contact_dof_faces[face.number])
       {
-        const ContactAxes<3> &axes = contact_dof_faces[face.number]->axes;
-        const Tensor<2, 3> to_cell = invert(face.map.jacobian(Point<3>(0.5, 0.5, 0.5)));
+        const ContactDofFace<3> &slave = *contact_dof_faces[face.number];
         for (const OppositeFaces::Part &part : opposite[number_of(face)].parts)
         {
           const MasterFace &master = opposite.masters[part.master];
-          FarTraction message{master.cell, master.face, axes.normal, {}, {}, {}};
-          for (const auto &point : opposite.points_of(part, axes, space.tables.degree + 1))
+          FarTraction message{master.cell, master.face, slave.axes.normal, {}, {}, {}};
+          for (const auto &point : opposite.points_of(part, slave, space.tables.degree + 1))
           {
-            const Point<3> own = face.map.is_affine()
-                                     ? Point<3>(to_cell * (point.x - face.map.vertices()[0]))
-                                     : reference_of<3>(face.cell, point.x).value();
-            const ContactTraction<3> traction = this->traction(face, own);
-            const FaceFrame<3> frame = face.frame(own);
+            const ContactTraction<3> traction = this->traction(face, point.own);
+            const FaceFrame<3> frame = face.frame(point.own);
             Tensor<1, 3> force = traction.pressure * frame.normal;
             for (unsigned int s = 0; s < 2; ++s)
               force += traction.friction[s] * frame.tangents[s];

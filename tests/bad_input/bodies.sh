@@ -109,7 +109,7 @@ invalid "Contact lid/Law = tied" "lie apart" -- "${lid[@]}" "Contact lid/Law=tie
 invalid "Contact lid/Gap" "not an expression" "no body here" -- "${lid[@]}" "Contact lid/Gap=mu*x"
 invalid "Contact again/Between" "overlaps Contact lid/Between" -- "${lid[@]}" "Contact again/Between=upper.top, disc.arc"
 invalid "Contact again/Between" "edges of lower.top that Contact joint has, too" "one body" -- "Contact again/Between=lower.top, upper.bottom"
-invalid "Contact joint/Between" "edges of both sides that hang over" "a vertex" -- "Body lower/Shape=quadrilateral" \
+invalid "Contact joint/Between" "parts of both sides that hang over" "a vertex" -- "Body lower/Shape=quadrilateral" \
   "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1" "Body upper/Shape=quadrilateral" "Body upper/Corners=2, 1; 4, 1; 4, 2; 2, 2" "Body upper/Subdivisions=1, 1"
 invalid "Contact joint/Slave = lower.top" "hangs over the end" -- "Body lower/Shape=quadrilateral" \
   "Body lower/Corners=0, 0; 3, 0; 3, 1; 0, 1" "Body lower/Subdivisions=2, 1" "Contact joint/Slave=lower.top"

@@ -56,7 +56,7 @@ invalid "expression of x, y and z" -- "Boundary left/Traction=1; 0; w"
 check 1 "expression of x and y" -- "$hpvi" --validate prm/han-6-12.prm --set "Boundary left/Traction=1; z"
 check 1 "Lower corner = 0, 0, 0" "two finite numbers" -- "$hpvi" --validate prm/slab.prm --set Dimension=2
 
-# --- bodies that touch are boxes, each held
+# --- bodies that touch, each held
 cat >"$scratch/blocks.prm" <<'END'
 set Dimension = 3
 subsection Body high
@@ -83,7 +83,10 @@ blocks() {
 blocks "Contact joint/Between" "do not face each other" "name two that lie opposite" -- "Contact joint/Between=high.bottom, low.left"
 blocks "Contact joint/Between" "beside each other" -- "Body high/Lower corner=2, 1, 0" "Body high/Upper corner=3, 2, 1"
 blocks "Contact joint/Between" "0.25 inside each other" "negative Gap" -- "Body high/Lower corner=0, 0.75, 0"
-blocks "Contact joint/Between" "finds sides in the plane alone" -- "Contact joint/Between=automatic"
+blocks "Contact joint/Between" "finds no sides of two bodies that lie on each other" -- "Contact joint/Between=automatic" "Body high/Lower corner=0, 1.1, 0"
+blocks "Contact joint/Between" "no two sides" "or automatic" -- "Contact joint/Between=high.bottom"
+blocks "Body high/Surfaces" "those of a mesh file" -- "Body high/Surfaces=1"
+"$hpvi" --validate "$scratch/blocks.prm" --set "Contact joint/Between=automatic" | grep -q "set Between = high.bottom, low.top" || { echo "automatic finds no joint"; failures=1; }
 blocks "Contact joint/Between" "no side" "high.bottom" -- "Contact joint/Between=high.bottom, low.roof"
 blocks "Contact joint/Between" "sides of one body" -- "Contact joint/Between=high.bottom, high.top"
 blocks "Contact joint/Slave" "none of the two sides" -- "Contact joint/Slave=low.left"

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""space_bodies.py HPVI held|floating MPIRUN: boxes in space whose meshes do not match. Held by supports a uniform pressure
+"""space_bodies.py HPVI held|floating|files MPIRUN: boxes in space whose meshes do not match. Held by supports a uniform pressure
 passes from one to the other exactly, with hanging nodes, for all degrees and on one to three processes; forces balance on each
 body; either may be the slave; on a stiff body the other one is as on a rigid floor. Layers between planes of symmetry are the runs
 of the plane, held and held by contact alone; a stack of three has one energy by all solvers and on one to three processes, and
-what no contact holds is named."""
+what no contact holds is named. Volumes of one mesh file, whose faces are any quadrilaterals and turned about two axes, pass a pressure
+as boxes do, are boxes where they have their cells, and are found by Between = automatic."""
 import csv
 import json
+import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -136,6 +139,47 @@ subsection Solver
   set Primal tolerance = 1e-11
 end
 """
+# Two volumes of blocks.msh. The ratio nu/E is the same: under a uniaxial stress both get equally wide, and nothing slips.
+FILES = """set Dimension = 3
+subsection Body high
+  set Shape    = file
+  set File     = blocks.msh
+  set Surfaces = high
+  set Material = soft
+end
+subsection Body low
+  set Shape    = file
+  set File     = blocks.msh
+  set Surfaces = low
+end
+subsection Material
+  set Young's modulus = 20
+  set Poisson's ratio = 0.3
+end
+subsection Material soft
+  set Young's modulus = 10
+  set Poisson's ratio = 0.15
+end
+subsection Boundary low.bottom
+  set Displacement = {floor}
+end
+subsection Boundary high.top
+  {load}
+end
+subsection Contact joint
+  set Between = high.seat, low.{lid}
+  {law}
+end
+subsection Adaptivity
+  set Method        = hup2
+  set Maximum steps = 1
+end
+subsection Solver
+  set Primal tolerance = 1e-13
+end
+"""
+SIDES = ["left", "right", "bottom", "top", "front", "back"]
+HIGH, LOW = ((0, 1, 0), (1, 1.5, 1)), ((0, 0, 0), (1, 1, 1))
 failures = 0
 
 
@@ -167,6 +211,60 @@ def solve(directory, entries, processes=1, scene=SCENE):
     out = directory / "out"
     table = rows(out / "convergence.csv")
     return rows(out / f"contact-{len(table):02}.csv"), json.loads((out / "summary.json").read_text()), table[-1]
+
+
+def turned(x):
+    """About z, and then about x."""
+    c, s, d, t = math.cos(0.5), math.sin(0.5), math.cos(0.3), math.sin(0.3)
+    y = c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]
+    return y[0], d * y[1] - t * y[2], t * y[1] + d * y[2]
+
+
+def write_mesh(path, volumes, place=lambda x: x, share=False):
+    """Volumes as (name, (low, high), cells along each axis, seed, {side: name of its surface}[, map]): grids whose inner lines along y are moved
+    where there is a seed. share: volumes have corners at one place in common, and the face between them."""
+    nodes, known, elements, surfaces, seen = [], {}, [], {}, set()
+    for number, (_, (low, high), n, seed, names, *bend) in enumerate(volumes, 1):
+        dice = random.Random(seed)
+        moved = {(i, k): [dice.uniform(-0.25, 0.25) if seed else 0 for _ in range(2)] for i in range(1, n[0]) for k in range(1, n[2])}
+
+        def node(i, j, k):
+            x, z = moved.get((i, k), (0, 0))
+            at = [low[d] + (high[d] - low[d]) * w / n[d] for d, w in enumerate((i + x, j, k + z))]
+            at = place(bend[0](at) if bend else at)
+            key = tuple(round(a, 9) for a in at) if share else (number, i, j, k)
+            if key not in known:
+                nodes.append(at)
+                known[key] = len(nodes)
+            return known[key]
+
+        for cell in [(i, j, k) for i in range(n[0]) for j in range(n[1]) for k in range(n[2])]:
+            for side, name in enumerate(SIDES):
+                d, end = divmod(side, 2)
+                if cell[d] == (n[d] - 1 if end else 0):
+                    corners = []
+                    for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                        at = [a, b]
+                        at.insert(d, end)
+                        corners.append(node(*(c + w for c, w in zip(cell, at))))
+                    if tuple(sorted(corners)) not in seen:
+                        seen.add(tuple(sorted(corners)))
+                        group = surfaces.setdefault(names.get(side, name), len(surfaces) + 1)
+                        elements.append((3, group, corners))
+            around = ((0, 0), (1, 0), (1, 1), (0, 1))
+            elements.append((5, number, [node(cell[0] + a, cell[1] + b, cell[2] + c) for c in (0, 1) for a, b in around]))
+    groups = [f'2 {tag} "{name}"' for name, tag in surfaces.items()] + [f'3 {tag} "{name}"' for tag, (name, *_) in enumerate(volumes, 1)]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(groups)), *groups, "$EndPhysicalNames",
+             "$Nodes", str(len(nodes)), *(f"{tag} {' '.join(map(repr, x))}" for tag, x in enumerate(nodes, 1)), "$EndNodes",
+             "$Elements", str(len(elements)),
+             *(f"{tag} {kind} 2 {group} {group} {' '.join(map(str, own))}" for tag, (kind, group, own) in enumerate(elements, 1)), "$EndElements"]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def uniaxial(normal, pressure=0.1, E=20, nu=0.3):
+    """The displacement of the lower block under this pressure, as three expressions."""
+    strain = [[pressure / E * (nu * (i == j) - (1 + nu) * normal[i] * normal[j]) for j in range(3)] for i in range(3)]
+    return "; ".join(" + ".join(f"({value!r})*{axis}" for value, axis in zip(row, "xyz")) for row in strain)
 
 
 def largest(points, column, value):
@@ -285,6 +383,75 @@ def check_shipped(scratch):
     expect(abs(largest_pressure / 4354 - 1) < 0.02, "spheres", largest_pressure)
 
 
+def check_skew_pressure(scratch):
+    """Of volumes with and without common corners, on faces that are no parallelograms."""
+    normal = turned((0, 1, 0))
+    entries = {"floor": uniaxial(normal), "load": "set Pressure = 0.1"}
+    high, low = ("high", HIGH, (3, 1, 3), 1, {2: "seat"}), ("low", LOW, (5, 1, 4), 2, {3: "lid"})
+    corner, other = (", ".join(map(repr, turned(x))) for x in ((0, 1, 0), (1, 1, 1)))
+    graded = [f"Body high/Graded towards={corner}", "Body high/Grading levels=1", f"Body low/Graded towards={other}", "Body low/Grading levels=1"]
+    friction, tied = "set Friction coefficient = 0.3", "set Law = tied"
+    for degree, share, law, extra, processes in (
+            (2, False, friction, graded, 1), (3, False, friction, [], 2), (4, False, tied, [], 1), (2, False, tied, graded, 3),
+            (2, False, friction, ["Contact joint/Slave=high.seat", "Solver/Linear=direct"], 1), (3, True, friction, [], 1),
+            (2, False, friction, ["Contact joint/Between=automatic"], 1)):
+        write_mesh(scratch / "blocks.msh", (("high", HIGH, (3, 1, 3), 1, {2: "seat"}), ("low", LOW, (3, 1, 3), 1, {3: "seat"})) if share else (high, low),
+                   turned, share)
+        scene = FILES.format(law=law, lid="seat" if share else "lid", **entries)
+        points, summary, row = solve(scratch, [f"Adaptivity/Method=hup{degree}", *extra], processes, scene)
+        name = (degree, share, law, extra, processes)
+        if "tied" not in law:
+            expect(largest(points, "normal_traction", -0.1) < 1e-12, name, largest(points, "normal_traction", -0.1))
+        expect(float(row["estimate_relative"]) < 1e-9, name, "estimate", row["estimate_relative"])
+        force = summary["forces"]["high.seat"]["force"]
+        expect(max(abs(f - 0.1 * n) for f, n in zip(force, normal)) < 1e-12, name, force)
+
+
+def check_file_of_boxes(scratch):
+    """A file with the cells of boxes is the boxes, and turned about two axes, too."""
+    names = dict(floor="0; 0; 0", law="set Friction coefficient = 0.3", lid="lid")
+    boxes = FILES.format(load="set Displacement = 0.02; -0.01; 0.01", **names)
+    volumes = ("high", HIGH, (3, 1, 3), None, {2: "seat"}), ("low", LOW, (5, 1, 4), None, {3: "lid"})
+    energies = []
+    for place in (None, lambda x: x, turned):
+        scene = boxes
+        if place is None:
+            for name, (low, high), n, side, own in (("high", HIGH, (3, 1, 3), "bottom", "seat"), ("low", LOW, (5, 1, 4), "top", "lid")):
+                shape = "\n  ".join(f"set {key} = {', '.join(map(str, value))}" for key, value in
+                                    (("Lower corner", low), ("Upper corner", high), ("Subdivisions", n)))
+                scene = scene.replace(f"set Shape    = file\n  set File     = blocks.msh\n  set Surfaces = {name}", shape).replace(f"{name}.{own}", f"{name}.{side}")
+        else:
+            write_mesh(scratch / "blocks.msh", volumes, place)
+            scene = boxes.replace("0.02; -0.01; 0.01", "; ".join(map(repr, place((0.02, -0.01, 0.01)))))
+        energies.append(float(solve(scratch, ["Adaptivity/Maximum steps=2", "Solver/Primal tolerance=1e-11"], scene=scene)[2]["lagrangian"]))
+    expect(max(abs(energy / energies[0] - 1) for energy in energies) < 1e-9, "boxes", energies)
+
+
+def check_many_coarse_cells(scratch):
+    """Coarse meshes of more than 12000 unknowns keep multigrid, which finds what ML does."""
+    cells = ["Body low/Subdivisions=8, 5, 8", "Body high/Subdivisions=6, 4, 6", "Contact joint/Friction coefficient=0.3", "Solver/Primal tolerance=1e-9"]
+    known = float(solve(scratch, [*FRICTION, *cells, "Solver/Linear=amg"])[2]["lagrangian"])
+    for processes in (1, 2):
+        row, linear = (lambda result: (result[2], result[1]["linear"]))(solve(scratch, [*FRICTION, *cells], processes))
+        expect(linear == "multigrid" and int(row["newton_cg"]) < 10 * int(row["newton_steps"]), "coarse", processes, linear, row)
+        expect(abs(float(row["lagrangian"]) / known - 1) < 1e-8, "coarse", processes, row["lagrangian"], known)
+
+
+def check_slanted(scratch):
+    """Sides at an angle are at a distance that varies: as flat ones at that Gap, but for the angle; and each body balances."""
+    forces = []
+    for angle in (0.02, 0):
+        high = "high", HIGH, (3, 1, 3), None, {2: "seat"}, lambda x: (x[0], x[1] + angle * x[0] * (3 - 2 * x[1]), x[2])
+        write_mesh(scratch / "blocks.msh", (high, ("low", LOW, (5, 1, 4), None, {3: "lid"})))
+        scene = FILES.format(floor="0; 0; 0", load="set Displacement = 0.02; -0.02; 0.01", law="set Friction coefficient = 0.3", lid="lid")
+        gap = [] if angle else ["Contact joint/Gap=0.02*x"]
+        summary = solve(scratch, ["Adaptivity/Maximum steps=2", "Solver/Primal tolerance=1e-11", *gap], scene=scene)[1]
+        forces.append(summary["forces"]["high.seat"]["force"])
+        for a, b in zip(forces[-1], summary["forces"]["high.top"]["force"]):
+            expect(abs(a + b) < 1e-9, "slanted", summary["forces"])
+    expect(max(abs(a - b) for a, b in zip(*forces)) < 0.05 * max(map(abs, forces[1])), "slanted", forces)
+
+
 with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)
     if PART == "held":
@@ -292,6 +459,11 @@ with tempfile.TemporaryDirectory() as scratch:
         check_friction(scratch)
         check_stiffness(scratch)
         check_shipped(scratch)
+    elif PART == "files":
+        check_skew_pressure(scratch)
+        check_file_of_boxes(scratch)
+        check_slanted(scratch)
+        check_many_coarse_cells(scratch)
     else:
         check_layers(scratch, HELD, LAWS)
         # Friction's work by the rules of plane and space, whose points differ: to and fro.

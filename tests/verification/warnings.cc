@@ -577,7 +577,7 @@ TEST(Warnings, BodiesThatLieOnEachOther)
       }
     const Scene<2> scene = scene_of(entries);
     std::vector<std::string> joints;
-    for (const BareJoint &joint : bare_joints(scene))
+    for (const BareJoint<2> &joint : bare_joints(scene))
       joints.push_back(joint.sides[0] + " " + joint.sides[1]);
     EXPECT_EQ(joints, row.joints) << row.name;
   }

@@ -21,9 +21,10 @@ std::vector<Assignment> without_pairs(const std::vector<Assignment> &all,
  * @p all with a section of its own for all sides of @p bodies, which has no such pairs, that lie on each other, in the place of each
  * automatic one, and with what that says; @p sections are these as text. Throws InputError where there are none.
  */
+template <int dim>
 std::vector<Assignment> with_pairs_found(const std::vector<Assignment> &all,
                                          const std::vector<std::string> &pairs,
-                                         const Scene<2> &bodies, std::string &sections);
+                                         const Scene<dim> &bodies, std::string &sections);
 } // namespace hpvi
 
 #endif

@@ -126,16 +126,16 @@ public:
   Place place(unsigned int face, const dealii::Point<3> &x,
               const dealii::Tensor<1, 3> &normal) const;
 
-  /** A point of a part, with its weight, times ds of the slave's face, and where it lies on the master's cell. */
+  /** A point of a part: where it lies on the slave's cell, its weight, times ds of the slave's face, and where on the master's. */
   struct PartPoint
   {
-    dealii::Point<3> x;
+    dealii::Point<3> own;
     double weight;
     dealii::Point<3> reference;
   };
 
-  /** Of a rule with @p n points a direction on each triangle; @p axes are those of the slave's face. */
-  std::vector<PartPoint> points_of(const Part &part, const ContactAxes<3> &axes,
+  /** Of a rule with @p n points a direction on each triangle. */
+  std::vector<PartPoint> points_of(const Part &part, const ContactDofFace<3> &slave,
                                    unsigned int n) const;
 
   /** u' there, of nodal @p values in the order of nodal(). */

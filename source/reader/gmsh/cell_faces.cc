@@ -142,6 +142,7 @@ void CellFaces::check_connection() const
   if (const unsigned int n = n_parts(); n > 1)
     complain("the cells make " + std::to_string(n) +
              " parts that no face connects, and a body in space is one part; let volumes share a "
-             "surface, Coherence in the drawing makes it, or save one of them");
+             "surface, Coherence in the drawing makes it, or open a subsection Body NAME for each "
+             "with its Surfaces");
 }
 } // namespace hpvi

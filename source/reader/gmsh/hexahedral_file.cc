@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace hpvi
 {
@@ -48,14 +49,18 @@ void check_hexahedra(const GmshFile &file, const MeshComplaint &complain)
 class HexahedraMaker
 {
 public:
-  HexahedraMaker(const GmshFile &file, const MeshComplaint &complain)
-      : file(file), complain(complain), corner_of(file.nodes.size(), CoarseMesh::inside)
+  HexahedraMaker(const GmshFile &file, const std::vector<std::string> &volumes,
+                 const MeshComplaint &complain)
+      : file(file), wanted(volumes), complain(complain),
+        corner_of(file.nodes.size(), CoarseMesh::inside)
   {
   }
 
   HexahedralMesh make()
   {
     take_cells();
+    if (mesh.cells.empty())
+      return std::move(mesh);
     check_places();
     orient_cells();
     check_planes();
@@ -67,6 +72,10 @@ public:
   }
 
 private:
+  /** Gmsh goes around the bottom and then around the top. */
+  static constexpr std::array<unsigned int, 8> place{{0, 1, 3, 2, 4, 5, 7, 6}};
+
+  /** All volumes have numbers, those too that are left out. */
   void take_cells()
   {
     std::vector<std::int64_t> tags;
@@ -85,10 +94,10 @@ private:
     const GroupNumbers numbers(file, 3, tags, complain);
     mesh.surfaces = numbers.names();
     for (const GmshFile::Element &element : file.elements)
-      if (element.type == hexahedron)
+      if (element.type == hexahedron && !is_wanted(numbers.number(element.group)))
+        leave_out(element);
+      else if (element.type == hexahedron)
       {
-        // Gmsh goes around the bottom and then around the top.
-        constexpr std::array<unsigned int, 8> place{{0, 1, 3, 2, 4, 5, 7, 6}};
         mesh.hexahedra.emplace_back();
         auto &corners = mesh.hexahedra.back();
         for (unsigned int v = 0; v < corners.size(); ++v)
@@ -101,6 +110,30 @@ private:
         mesh.cells.back().surface = numbers.number(element.group);
         numbers_of_cells.push_back(element.number);
       }
+  }
+
+  bool is_wanted(const unsigned int volume) const
+  {
+    return wanted.empty() ||
+           std::find(wanted.begin(), wanted.end(), mesh.surfaces[volume]) != wanted.end();
+  }
+
+  /** By nodes in ascending order, as faces of what is left out are known. */
+  static std::array<unsigned int, 4> sorted(std::array<unsigned int, 4> nodes)
+  {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  }
+
+  void leave_out(const GmshFile::Element &cell)
+  {
+    for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
+    {
+      std::array<unsigned int, 4> nodes;
+      for (unsigned int v = 0; v < 4; ++v)
+        nodes[v] = cell.nodes[place[GeometryInfo<3>::face_to_cell_vertices(f, v)]];
+      left_out.insert(sorted(nodes));
+    }
   }
 
   unsigned int take_node(const unsigned int node)
@@ -136,8 +169,11 @@ private:
         [&](const unsigned int begin, const unsigned int end, const unsigned int d)
     {
       if (d == 3 && end - begin > 1)
-        complain("two nodes are at " + to_string(x[order[begin]]) +
-                 "; give volumes that touch one surface there, Coherence in the drawing makes it");
+        complain(
+            "two nodes are at " + to_string(x[order[begin]]) +
+            "; give volumes that touch one surface there, Coherence in the drawing makes it, or "
+            "a subsection Body NAME for each with its Surfaces, if they are bodies of their "
+            "own");
       if (d == 3 || end - begin < 2)
         return;
       std::sort(order.begin() + begin, order.begin() + end,
@@ -219,10 +255,12 @@ private:
     {
       if (element.type != quadrilateral || element.group == 0)
         continue;
-      std::array<unsigned int, 4> corners;
+      std::array<unsigned int, 4> corners, nodes;
       for (unsigned int k = 0; k < 4; ++k)
-        corners[k] = corner_of[element.nodes[k]];
+        corners[k] = corner_of[nodes[k] = element.nodes[k]];
       const unsigned int face = faces.find(corners);
+      if (face == CoarseMesh::inside && left_out.count(sorted(nodes)) > 0)
+        continue;
       if (face == CoarseMesh::inside)
         complain.of(element.number, "the physical " + file.words({2, element.group}) +
                                         " has a face of no cell here, at " +
@@ -279,14 +317,18 @@ private:
   }
 
   const GmshFile &file;
+  const std::vector<std::string> &wanted;
   const MeshComplaint &complain;
   HexahedralMesh mesh;
-  std::vector<unsigned int> corner_of;       ///< by node; CoarseMesh::inside: not used
-  std::vector<std::size_t> numbers_of_cells; ///< in the file
+  std::set<std::array<unsigned int, 4>> left_out; ///< faces of other volumes, by nodes
+  std::vector<unsigned int> corner_of;            ///< by node; CoarseMesh::inside: not used
+  std::vector<std::size_t> numbers_of_cells;      ///< in the file
 };
 } // namespace
 
-HexahedralMesh read_hexahedral_file(const std::string &path, const DrawingRequest &request)
+HexahedralMesh read_hexahedral_file(const std::string &path,
+                                    const std::vector<std::string> &volumes,
+                                    const DrawingRequest &request)
 {
   GmshFile file = read_drawing(path, 3, request);
   const MeshComplaint complain(path);
@@ -294,7 +336,7 @@ HexahedralMesh read_hexahedral_file(const std::string &path, const DrawingReques
   number_groups(file, 3, request, complain);
   make_hexahedra(file);
   check_hexahedra(file, complain);
-  HexahedralMesh mesh = HexahedraMaker(file, complain).make();
+  HexahedralMesh mesh = HexahedraMaker(file, volumes, complain).make();
   mesh.origin = file.origin;
   mesh.is_numbered = file.is_numbered;
   mesh.remarks = file.remarks;

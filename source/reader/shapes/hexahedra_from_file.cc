@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/hexahedral_file.h>
 #include <hpvi/reader/shapes/curve_fit.h>
@@ -132,10 +133,15 @@ ShapeKind<3> hexahedra_from_file()
         if (file.empty())
           parameters.reject("Geometry", "File",
                             "names no mesh; give a drawing or a mesh, as body.step or body.msh");
-        geometry.mesh = std::make_shared<const HexahedralMesh>(
-            read_hexahedral_file(beside(parameters.file_name(), file),
+        const std::vector<std::string> volumes = surfaces_of_body(parameters);
+        HexahedralMesh mesh =
+            read_hexahedral_file(beside(parameters.file_name(), file), volumes,
                                  drawing_request([&](const std::string &entry)
-                                                 { return parameters.text("Geometry", entry); })));
+                                                 { return parameters.text("Geometry", entry); }));
+        check_surfaces(volumes, mesh,
+                       [&](const std::string &problem)
+                       { parameters.reject("Geometry", "Surfaces", problem); });
+        geometry.mesh = std::make_shared<const HexahedralMesh>(std::move(mesh));
       },
       nullptr,
       [](const GeometryText &text)
@@ -143,10 +149,14 @@ ShapeKind<3> hexahedra_from_file()
         const std::string file = text("File");
         if (file.empty())
           return SideNames();
-        const std::vector<std::string> boundaries =
-            read_hexahedral_file(file, drawing_request(text)).boundaries;
-        require_names(boundaries, file, "surface");
-        return SideNames{boundaries, {}, /*is_from_file=*/true};
+        const std::vector<std::string> volumes = words_in(text("Surfaces"));
+        const HexahedralMesh mesh = read_hexahedral_file(file, volumes, drawing_request(text));
+        if (mesh.cells.empty()) // else the entry is refused where the body is read
+          check_surfaces(volumes, mesh,
+                         [&](const std::string &problem)
+                         { throw InputError(printable(file, 400) + ": Surfaces " + problem); });
+        require_names(mesh.boundaries, file, "surface");
+        return SideNames{mesh.boundaries, {}, /*is_from_file=*/true};
       },
       false};
 }

@@ -84,21 +84,6 @@ void bend(const Parameters &parameters, const std::string &name,
                                                 : "; take more edges there, or remove it"));
 }
 
-std::vector<std::string> words_in(const std::string &list)
-{
-  return Utilities::split_string_list(list, ',');
-}
-
-/** What a body takes is in the file; @p reject is told what is not. */
-void check_surfaces(const std::vector<std::string> &wanted, const CoarseMesh &mesh,
-                    const std::function<void(const std::string &)> &reject)
-{
-  for (const std::string &surface : wanted)
-    if (std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) == mesh.surfaces.end())
-      reject("names " + printable(surface) + ", which the mesh has not; it has " +
-             listed(mesh.surfaces, "and"));
-}
-
 /** Numbers that its entry `Curves` has. */
 void take_curves(const std::string &name, const std::string &numbers, DrawingRequest &request)
 {
@@ -133,9 +118,7 @@ void read_file(const Parameters &parameters, Geometry<2> &geometry)
   const std::string path = beside(parameters.file_name(), file),
                     body = parameters.standing_for("Geometry");
   const auto prefix = body.empty() ? "" : body.substr(body.find(' ') + 1) + ".";
-  const std::vector<std::string> surfaces = parameters.has("Geometry", "Surfaces")
-                                                ? words_in(parameters.text("Geometry", "Surfaces"))
-                                                : std::vector<std::string>();
+  const std::vector<std::string> surfaces = surfaces_of_body(parameters);
   CoarseMesh mesh = read_mesh_file(path, surfaces, request_of(parameters, prefix));
   check_surfaces(surfaces, mesh,
                  [&](const std::string &problem)
@@ -155,6 +138,26 @@ void read_file(const Parameters &parameters, Geometry<2> &geometry)
   geometry.mesh = std::make_shared<const CoarseMesh>(std::move(mesh));
 }
 } // namespace
+
+std::vector<std::string> words_in(const std::string &list)
+{
+  return Utilities::split_string_list(list, ',');
+}
+
+void check_surfaces(const std::vector<std::string> &wanted, const CoarseMesh &mesh,
+                    const std::function<void(const std::string &)> &reject)
+{
+  for (const std::string &surface : wanted)
+    if (std::find(mesh.surfaces.begin(), mesh.surfaces.end(), surface) == mesh.surfaces.end())
+      reject("names " + printable(surface) + ", which the mesh has not; it has " +
+             listed(mesh.surfaces, "and"));
+}
+
+std::vector<std::string> surfaces_of_body(const Parameters &parameters)
+{
+  return parameters.has("Geometry", "Surfaces") ? words_in(parameters.text("Geometry", "Surfaces"))
+                                                : std::vector<std::string>();
+}
 
 std::string beside(const std::string &scene, const std::string &name)
 {

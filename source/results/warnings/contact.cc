@@ -159,7 +159,7 @@ Warnings steep_gaps(const Scene<dim> &scene, const std::vector<ContactState<dim>
 
 Warnings joints_without_pair(const Scene<2> &scene)
 {
-  const std::vector<BareJoint> joints = bare_joints(scene);
+  const std::vector<BareJoint<2>> joints = bare_joints(scene);
   if (joints.empty())
     return {};
   const auto &[sides, at] = joints.front();

@@ -14,6 +14,15 @@ ShapeKind<2> mesh_from_file();
 DrawingRequest drawing_request(const GeometryText &text);
 std::vector<Entry> drawing_entries(unsigned int dim);
 
+std::vector<std::string> words_in(const std::string &list); ///< between commas
+
+/** `Surfaces` of a body: those of its file, volumes in space, that make it; empty: all. */
+std::vector<std::string> surfaces_of_body(const Parameters &parameters);
+
+/** What a body takes is in the file; @p reject is told what is not. */
+void check_surfaces(const std::vector<std::string> &wanted, const CoarseMesh &mesh,
+                    const std::function<void(const std::string &)> &reject);
+
 /** Where a scene file @p scene finds the file that it calls @p name: beside itself, unless that is a whole path. */
 std::string beside(const std::string &scene, const std::string &name);
 

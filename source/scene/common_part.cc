@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/space/common_part.h>
+#include <hpvi/scene/common_part.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
