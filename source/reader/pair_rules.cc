@@ -59,6 +59,7 @@ Expression<dim> beyond(const double closed, const double doubt, const Expression
         return value >= -std::max(closed, doubt) && value <= closed ? 0. : value;
       }));
 }
+
 void choose_slave(const Parameters &parameters, const std::string &section,
                   const std::array<bool, 2> &hangs_over, std::optional<unsigned int> &slave)
 {

@@ -145,7 +145,6 @@ unsigned int body_of(const Scene<dim> &scene, const types::boundary_id boundary)
 {
   return scene.geometry.body_of_side(scene.boundaries[boundary].side);
 }
-} // namespace
 
 /** What could contradict another boundary's wish where both meet. */
 template <int dim>
@@ -154,6 +153,7 @@ bool asks_for_displacements(const BoundaryCondition<dim> &boundary)
   return boundary.has_displacement() || boundary.symmetry || boundary.has_contact() ||
          boundary.plate;
 }
+} // namespace
 
 /** u_n = 0 holds one component of a node: in space that of an axis. */
 void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
