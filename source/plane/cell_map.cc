@@ -117,9 +117,12 @@ Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
   {
     std::array<unsigned int, dim> order{};
     order[j] = 1;
-    for (unsigned int v = 0; v < corners.size(); ++v)
+    for (unsigned int v = 1; v < corners.size(); ++v)
+    {
+      const double slope = vertex_shape<dim>(v, reference, order);
       for (unsigned int i = 0; i < dim; ++i)
-        J[i][j] += vertex_shape<dim>(v, reference, order) * (corners[v][i] - corners[0][i]);
+        J[i][j] += slope * (corners[v][i] - corners[0][i]);
+    }
     if constexpr (dim == 2)
       if (curved)
       {
@@ -143,9 +146,12 @@ Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
       std::array<unsigned int, dim> order{};
       ++order[j];
       ++order[k];
-      for (unsigned int v = 0; v < corners.size(); ++v)
+      for (unsigned int v = 1; v < corners.size(); ++v)
+      {
+        const double bend = vertex_shape<dim>(v, reference, order);
         for (unsigned int i = 0; i < dim; ++i)
-          H[i][j][k] += vertex_shape<dim>(v, reference, order) * (corners[v][i] - corners[0][i]);
+          H[i][j][k] += bend * (corners[v][i] - corners[0][i]);
+      }
       if constexpr (dim == 2)
         if (curved)
         {

@@ -104,6 +104,9 @@ public:
       : face(face), field(field), gauss(field.tables.gauss(face.degree() + 1)),
         basis(field.tables.gauss_lagrange(gauss.size()))
   {
+    for (unsigned int v = 0; v < 4; ++v)
+      measures[v] = face.map.face_measure(face.face_no,
+                                          point_on_face<3>(face.face_no, Point<2>(v % 2, v / 2)));
     const ShapeTable<3> table = tabulate<3>(face.degree(), nodes(), {}, false);
     const std::vector<double> u = evaluate(table.values, field.coefficients(face.cell));
     for (unsigned int k = 0; k < table.points.size(); ++k)
@@ -147,9 +150,9 @@ private:
     for (unsigned int r = 0; r < n; ++r)
       for (unsigned int q = 0; q < n; ++q)
       {
-        const Point<3> reference =
-            point_on_face<3>(face.face_no, Point<2>(corner[0] + width * gauss.point(q)[0],
-                                                    corner[1] + width * gauss.point(r)[0]));
+        const Point<2> on_face(corner[0] + width * gauss.point(q)[0],
+                               corner[1] + width * gauss.point(r)[0]);
+        const Point<3> reference = point_on_face<3>(face.face_no, on_face);
         const double bound = field.bound(face, reference);
         if (bound == 0.)
           continue;
@@ -162,10 +165,16 @@ private:
           const FaceFrame<3> frame = face.frame(reference);
           u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
         }
-        sum += gauss.weight(q) * gauss.weight(r) * face.map.face_measure(face.face_no, reference) *
-               bound * u.norm();
+        sum += gauss.weight(q) * gauss.weight(r) * measure(on_face) * bound * u.norm();
       }
     return width * width * sum;
+  }
+
+  /** ds over that of the reference face: bilinear, for faces in contact are plane. */
+  double measure(const Point<2> &x) const
+  {
+    return (1 - x[1]) * ((1 - x[0]) * measures[0] + x[0] * measures[1]) +
+           x[1] * ((1 - x[0]) * measures[2] + x[0] * measures[3]);
   }
 
   double integral(const Point<2> &corner, const double width, const double whole,
@@ -191,6 +200,7 @@ private:
   const QGauss<1> &gauss;
   const std::vector<Polynomials::Polynomial<double>> &basis;
   std::vector<Tensor<1, 3>> slip; ///< at nodes(), of the own side alone
+  std::array<double, 4> measures; ///< at the corners
 };
 
 double friction_work(const FieldFace<3> &face, const Field<3> &field, const double tolerance)

@@ -200,25 +200,29 @@ std::vector<ContactSpot> of_all_processes(const std::vector<ContactSpot> &own,
 std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
                                            const std::vector<BodyMotions> &motions)
 {
-  const FESystem<3> &fe = space.tables.fe;
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
-  std::vector<DistributedVector> result;
-  for (const BodyMotions &motion : motions)
-  {
-    DistributedVector u = space.ghosted_vector();
-    for (const auto &cell : space.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
+  const BoxTables<3> &tables = space.tables;
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<DistributedVector> result(motions.size(), space.ghosted_vector());
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (!cell->is_artificial())
+    {
+      const unsigned int body = body_of<3>(space.scene.geometry, cell);
+      const CellMap<3> map = map_of<3>(cell);
+      cell->get_dof_indices(dofs);
+      for (const auto &components : tables.numbers)
       {
-        const SpaceMotion &own = motion[body_of<3>(space.scene.geometry, cell)];
-        const CellMap<3> map = map_of<3>(cell);
-        cell->get_dof_indices(dofs);
-        for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
-          if (space.relevant.is_element(dofs[i]))
-            u(dofs[i]) =
-                own.at(map.point(fe.unit_support_point(i)))[fe.system_to_component_index(i).first];
+        const Point<3> x = map.point(tables.fe.unit_support_point(components[0]));
+        for (unsigned int m = 0; m < motions.size(); ++m)
+        {
+          const Tensor<1, 3> u = motions[m][body].at(x);
+          for (unsigned int c = 0; c < 3; ++c)
+            if (space.relevant.is_element(dofs[components[c]]))
+              result[m](dofs[components[c]]) = u[c];
+        }
       }
-    result.push_back(space.in_contact_dofs(u));
-  }
+    }
+  for (DistributedVector &u : result)
+    u = space.in_contact_dofs(u);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
 
 namespace hpvi
 {
@@ -41,7 +42,10 @@ MultigridLevel<Number>::MultigridLevel(const PrimalSpace<3> &space)
   for (const unsigned int i : cells->constrained())
     if (i < space.owned.n_elements())
       constrained.push_back(i);
-  find_diagonal();
+  const BoxStiffness<3> stiffness(space);
+  if constexpr (std::is_same_v<Number, float>) // smoothers have no more digits
+    find_diagonal(stiffness);
+  find_blocks(stiffness);
 }
 
 template <typename Number>
@@ -53,9 +57,8 @@ void MultigridLevel<Number>::reinit(Vector &v) const
 // Of a cell with hanging nodes an unknown J has `sum_ij w_iJ K_ij w_jJ`, over all nodes that depend on it; else K_JJ, if it
 // is not prescribed.
 template <typename Number>
-void MultigridLevel<Number>::find_diagonal()
+void MultigridLevel<Number>::find_diagonal(const BoxStiffness<3> &stiffness)
 {
-  const BoxStiffness<3> stiffness(space);
   reinit(inverse_diagonal);
   std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
   const auto resolve = [&](const unsigned int i, const auto &take)
@@ -110,7 +113,6 @@ void MultigridLevel<Number>::find_diagonal()
     inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
   for (const unsigned int i : constrained)
     inverse_diagonal.local_element(i) = 0;
-  find_blocks(stiffness);
 }
 
 /** Of a cell of a slave with the nodes opposite; what is neither of this process nor beside it goes to @p far. */
@@ -194,6 +196,7 @@ void MultigridLevel<Number>::mask(Vector &x) const
 template <typename Number>
 void MultigridLevel<Number>::precondition(Vector &z, const Vector &r) const
 {
+  Assert(inverse_diagonal.size() > 0, ExcMessage("Only levels of floats are smoothed."));
   const unsigned int n = z.locally_owned_size();
   Number *const to = z.begin();
   const Number *const from = r.begin(), *const factor = inverse_diagonal.begin();

@@ -32,7 +32,7 @@ public:
   void vmult(Vector &y, const Vector &x) const;             ///< y = (A + H) x
   void mask(Vector &x) const; ///< zero where it is held or constrained
 
-  /** z = D^-1 r with the diagonal, and 2x2 blocks of `A + H` at friction that slips. */
+  /** z = D^-1 r with the diagonal, and 2x2 blocks of `A + H` at friction that slips; of floats alone. */
   void precondition(Vector &z, const Vector &r) const;
 
   const PrimalSpace<3> &space;
@@ -44,17 +44,17 @@ public:
   }
   const dealii::Utilities::MPI::Partitioner &partitioner() const
   {
-    return *inverse_diagonal.get_partitioner();
+    return *scratch.get_partitioner();
   }
   /** Local elements and weights that make up the value at @p dof, if it is constrained. */
   void resolve(dealii::types::global_dof_index dof,
                const std::function<void(unsigned int, double)> &take) const
   {
-    ContactDofTransform<Number>::resolve(space, inverse_diagonal, dof, take);
+    ContactDofTransform<Number>::resolve(space, scratch, dof, take);
   }
 
 private:
-  void find_diagonal();
+  void find_diagonal(const BoxStiffness<3> &stiffness);
   void add_diagonal(const PrimalSpace<3>::Cell &cell, const dealii::FullMatrix<double> &K,
                     std::vector<Number> &far);
   void find_blocks(const BoxStiffness<3> &stiffness);
@@ -62,7 +62,7 @@ private:
   dealii::AffineConstraints<Number> constraints; ///< as of the space, in its own numbers
   std::unique_ptr<CellOperator<Number>> cells;
   std::unique_ptr<ContactDofTransform<Number>> contact_dofs;
-  Vector inverse_diagonal;
+  Vector inverse_diagonal;               ///< of floats alone
   std::vector<unsigned int> constrained; ///< of this process
   mutable std::vector<Number> kept;
   mutable Vector scratch;
