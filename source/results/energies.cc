@@ -146,6 +146,12 @@ private:
       for (unsigned int q = 0; q < n; ++q)
         for (unsigned int i = 0; i < n; ++i)
           values[d].push_back(basis[i].value(corner[d] + width * gauss.point(q)[0]));
+    // Slip at points along the first axis and nodes along the second.
+    std::vector<Tensor<1, 3>> lines(n * n);
+    for (unsigned int q = 0; q < n; ++q)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          lines[q * n + j] += values[0][q * n + i] * slip[j * n + i];
     double sum = 0;
     for (unsigned int r = 0; r < n; ++r)
       for (unsigned int q = 0; q < n; ++q)
@@ -158,8 +164,7 @@ private:
           continue;
         Tensor<1, 3> u;
         for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int i = 0; i < n; ++i)
-            u += values[0][q * n + i] * values[1][r * n + j] * slip[j * n + i];
+          u += values[1][r * n + j] * lines[q * n + j];
         if (face.condition->pair) // what is opposite is no polynomial where its cells end
         {
           const FaceFrame<3> frame = face.frame(reference);
