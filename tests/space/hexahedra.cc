@@ -180,6 +180,7 @@ TEST(Hexahedra, HaveConstantStressAndUniformSlip)
                                     .norm(),
                                 1e-9);
                     EXPECT_LT(step.norms.total, 1e-8);
+                    EXPECT_NEAR(step.energies.slack, 0, 1e-9); // friction works with its bound
                     EXPECT_EQ(step.primal->newton.n_slipping, step.contact.at(0).points.size());
                     for (const ContactPoint<3> &point : step.contact.at(0).points)
                       EXPECT_LT((point.lambda - slip).norm(), 1e-9);
