@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Published cases with error bars: solves the scenes of prm/published, two at a time, reads the values of the rows of source/python/hpvi/benchmarks.py from their
+"""Published cases with error bars: solves the scenes of prm/published, two at a time, reads the values of the rows of source/python/hpvi/benchmarks.json from their
 result files, judges what is published against the error bar, and writes doc/benchmarks.md, doc/benchmarks/rows.csv and scenes.csv.
 
 published.py --program build/hpvi [SCENE ...]      only these scenes; the other rows stay as they are
@@ -21,14 +21,14 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES, PAGE, TABLES = ROOT / "prm/published", ROOT / "doc/benchmarks.md", ROOT / "doc/benchmarks"
-DATA = ROOT / "source/python/hpvi/benchmarks.py"
+MODULE, ROWS = (ROOT / f"source/python/hpvi/benchmarks.{end}" for end in ("py", "json"))
 ROUND_OFF = 1e-11  # of a value: what is never claimed
 NEAR = 5  # points of the contact table from which a value at a place is interpolated
 WORDS = {"energy": "guaranteed", "coupling": "bounded", "zones": "if", "estimate": "estimated"}
 
 
 def benchmarks():
-    spec = importlib.util.spec_from_file_location("benchmarks", DATA)
+    spec = importlib.util.spec_from_file_location("benchmarks", MODULE)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -188,7 +188,7 @@ def judged(module, rows):
         found = by_name.get(r.name)
         if not found:
             continue
-        reference, within = reference_of(module, r)
+        reference, within = module.reference_of(r)
         found["verdict"] = "own"
         if reference is None:
             continue
@@ -210,14 +210,8 @@ def judged(module, rows):
 def explains(found, other, r, module):
     """Does the companion, for which the assumption of the source holds better, come nearer to its own reference, by a factor of at least one and a half?"""
     (partner,) = [one for one in module.ROWS if one.name == r.shown_by]
-    ours, theirs = (abs(float(one["value"]) / reference_of(module, row)[0] - 1) for one, row in ((found, r), (other, partner)))
+    ours, theirs = (abs(float(one["value"]) / module.reference_of(row)[0] - 1) for one, row in ((found, r), (other, partner)))
     return theirs < ours / 1.5
-
-
-def reference_of(module, r):
-    if isinstance(r.reference, str):
-        return float(r.reference), module.rounding(r.reference)
-    return r.reference, 0.0
 
 
 def twin_of(module, scene):
@@ -368,11 +362,12 @@ def draw(module, rows, scenes, said):
     PAGE.write_text(page)
 
 
-def keep_own(module, rows):
+def keep_own(rows):
     """Values of own cases go where hpvi.benchmarks has them."""
-    own = {r.name for r in module.ROWS if r.reference is None}
-    lines = [f'    "{found["name"]}": ({float(found["value"])!r}, {float(found["bar"]):.2g}),' for found in rows if found["name"] in own]
-    DATA.write_text(re.sub(r"^OWN = \{.*?\}$", lambda _: "OWN = {\n" + "\n".join(lines) + "\n}", DATA.read_text(), flags=re.S | re.M))
+    text = ROWS.read_text()
+    for found in rows:
+        text = re.sub(rf'("name": "{re.escape(found["name"])}".*"own": )\[.*?\]', rf'\g<1>[{float(found["value"])!r}, {float(found["bar"]):.2g}]', text)
+    ROWS.write_text(text)
 
 
 def main():
@@ -404,7 +399,7 @@ def main():
     judged(module, rows)
     write(TABLES / "rows.csv", rows)
     write(TABLES / "scenes.csv", scenes)
-    keep_own(module, rows)
+    keep_own(rows)
     draw(module, rows, scenes, {} if options.draw or options.scenes else {"machine": machine(options.program.resolve(), seconds)})
     for found in rows:
         if not options.scenes or found["scene"] in options.scenes:
