@@ -8,10 +8,9 @@ runs both examples with all nine methods into the output directory, draws what t
 and renews the tables inside doc/chapter5.md. --draw draws what an earlier call has left there, and runs nothing.
 """
 import argparse
+import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
 import time
 from collections import namedtuple
@@ -21,38 +20,18 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from gallery import call
 from stability import COLOURS, N_LABEL, put_table
 
 HERE = pathlib.Path(__file__).resolve().parent
 
 # ------------------------------------------------------------------ what the thesis prints
 
-# rows: number of elements of degree 3, 4, 5, ... at refinement steps 1, 2, ..., 15
-TABLE_1 = """16; 28; 42 1; 58 6; 70 15; 66 28 3; 78 41 6 2; 79 57 12 9; 83 83 16 14; 75 107 25 19;
-67 131 49 22 2; 59 165 61 26 8; 54 158 87 36 19 4; 40 180 113 44 37 4; 34 176 145 64 44 9"""
-TABLE_2 = """4; 7; 13; 22; 37; 57 1; 78 7; 104 20; 135 40; 161 63 2; 171 94 11 4; 170 132 22 7;
-167 173 45 14 1; 189 211 74 24 4; 170 254 116 33 7"""
-
-
-Example = namedtuple("Example", "number scene rates beta condition table zooms error_figure mesh_figure multiplier_figure corners")
+# thesis.json: rates of decay of the indicator; condition: unknowns, cond(S), diagonally scaled; table: number of elements of degree 3, 4, 5, ... at steps 1, 2, ..., 15;
 # zooms: figure number -> interval of x; y from 0 to 0.5; corners: where the clamp meets a free or loaded edge
+Example = namedtuple("Example", "number scene rates beta condition table zooms error_figure mesh_figure multiplier_figure corners")
 Example.__str__ = lambda example: f"Example {example.number}"
-
-
-def rates(hup, hap2, hap3, hap4, pu):
-    return dict(hup2=hup, hup3=hup, hup4=hup, hap2=hap2, hap3=hap3, hap4=hap4, pu=pu)
-
-
-def counts(table):
-    return [[int(n) for n in row.split()] for row in table.split(";")]
-
-
-EXAMPLES = [
-    Example("5.2", HERE.parent / "prm/han-6-12.prm", rates(0.45, 0.6, 0.9, 1.5, 0.35), 0.3476, (22690, 5.5e8, 2.7e3), counts(TABLE_1),
-            {"5.4": (0.5, 1.5)}, "5.1", "5.2", "5.3", [(4, 4)]),
-    Example("5.3", HERE.parent / "prm/han-6-13.prm", rates(0.38, 0.6, 0.95, 1.6, 0.3), 0.3167, (19045, 5.3e7, 1.2e3), counts(TABLE_2),
-            {"5.8": (1.25, 2.5), "5.9": (6.875, 8.125)}, "5.5", "5.6", "5.7", [(0, 2), (10, 2)]),
-]
+EXAMPLES = [Example(**one) for one in json.loads((HERE / "figures/thesis.json").read_text())]
 
 # families share a line style
 METHODS = {
@@ -83,13 +62,11 @@ def limits(method):
 
 def run(program, example, method, directory, reading):
     vtu = method in ("hup4", "hpa2")  # drawn, or asked where its error sits
-    command = [program, "--output", str(directory), str(example.scene)]
-    for setting in [f"Adaptivity/Method={method}", f"Output/VTU={str(vtu).lower()}", *limits(method), f"Adaptivity/Smoothness reading={reading}"]:
-        command += ["--set", setting]
+    settings = [f"Adaptivity/Method={method}", f"Output/VTU={str(vtu).lower()}", *limits(method), f"Adaptivity/Smoothness reading={reading}"]
     start = time.time()
-    done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={"OMP_NUM_THREADS": "1", **os.environ})
+    done = call(program, HERE.parent / f"prm/{example.scene}.prm", directory, *(word for setting in settings for word in ("--set", setting)))
     if done.returncode != 0:
-        sys.exit(f"{' '.join(command)}\nfailed: {done.stderr.strip()}")
+        sys.exit(f"{example}, {directory.name} failed: {done.stderr.strip()}")
     print(f"  {directory.name:12s}{time.time() - start:7.1f} s", flush=True)
 
 

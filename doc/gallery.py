@@ -19,14 +19,14 @@ GALLERY = ROOT / "doc/gallery"
 
 
 def call(program, scene, output, *options):
-    return subprocess.run([program, *options, "--output", output / scene.stem, scene], stdout=subprocess.DEVNULL,
+    return subprocess.run([program, *options, "--output", output, scene], stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE, text=True, env={"OMP_NUM_THREADS": "1", **os.environ})
 
 
 def solve(program, scene, output):
     """The picture first: a run lets it stay. Bodies in space have none."""
     for options in (["--picture"], []):
-        done = call(program, scene, output, *options)
+        done = call(program, scene, output / scene.stem, *options)
         if done.returncode != 0 and not (options and "Dimension = 3" in done.stderr):
             sys.exit(f"{scene}: {done.stderr.strip()}")
 
@@ -38,7 +38,7 @@ def folder(scene, output):
 
 def draw(scene, run, output, plot, contacts):
     """Stress on the deformed body with its contact; in space beside it the states of the first contact and its friction."""
-    pyplot = plot.drawing_library()
+    pyplot = plot.pyplot
     has_surface = run.dimension == 3 and bool(run.contact)
     with pyplot.rc_context(plot.STYLE):
         figure, places = pyplot.subplots(1, 1 + has_surface, figsize=(7.4, 4.1) if has_surface else (3.9, 4.1), layout="constrained", squeeze=False)

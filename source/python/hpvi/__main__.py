@@ -25,9 +25,7 @@ def obey(words):
 def main():
     try:
         obey(sys.argv[1:])
-    except ImportError as error:
-        print(error)
-    except ValueError as error:  # RunError is one, and it has a remedy
+    except (ImportError, ValueError) as error:  # RunError is a ValueError, and it has a remedy
         print(error)
     except OSError as error:
         print(f"{error.filename or 'a file'}: {error.strerror}")

@@ -13,9 +13,18 @@ import math
 
 import numpy as np
 
+try:
+    from matplotlib import pyplot
+    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+    from matplotlib.lines import Line2D
+    from matplotlib.ticker import MaxNLocator, NullFormatter
+except ImportError:
+    raise ImportError("pictures need matplotlib; install python3-matplotlib") from None
+
 from . import results
 from .results import label, usual, von_mises
-from .scene import scene, scene_svg  # noqa: F401: pictures of scenes are asked for here
+from .scene import scene
 from .words import digits
 
 STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
@@ -34,7 +43,6 @@ PAPER = np.array(((0.85, 0., 0.53), (-0.21, 0.92, 0.33)))
 
 def figure(width=4.6, height=3.2):
     """A figure and its axes [inches], whose text is 9 points high."""
-    pyplot = drawing_library()
     with pyplot.rc_context(STYLE):
         made, axes = pyplot.subplots(figsize=(width, height), layout="constrained")
     return made, axes
@@ -42,7 +50,7 @@ def figure(width=4.6, height=3.2):
 
 def svg(function, *arguments, size=(4.6, 3.3), **options):
     """What a function of this module draws, as text, and its remarks. Equal pictures are equal texts."""
-    pyplot, file = drawing_library(), io.StringIO()
+    file = io.StringIO()
     with pyplot.rc_context(STYLE):
         made, axes = figure(*size)
         try:
@@ -53,17 +61,15 @@ def svg(function, *arguments, size=(4.6, 3.3), **options):
     return file.getvalue(), remarks
 
 
-def drawing_library():
-    try:
-        import matplotlib.pyplot
-        return matplotlib.pyplot
-    except ImportError:
-        raise ImportError("pictures need matplotlib; install python3-matplotlib") from None
+def scene_svg(data):
+    """A picture of its own as SVG, with its title: what `hpvi --picture` writes."""
+    size = np.ptp(np.concatenate([cell["outline"] for cell in data.get("cells") or [{"outline": [[0, 0], [1, 1]]}]]), axis=0)
+    text, _ = svg(scene, data, size=(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8))))
+    return "<!-- the scene, drawn by hpvi -->\n" + text[text.index("<svg"):]
 
 
 def plot(result, what=None, axes=None, scale=None):
     """One of `body`, `contact` and `convergence`, into axes if given; without a name all that there are. Returns the figure."""
-    pyplot = drawing_library()
     drawn = {"body": body, "contact": contact, "convergence": convergence}
     if what is not None and what not in drawn:
         raise ValueError(f"plot({what!r}): there are body, contact and convergence")
@@ -137,7 +143,6 @@ def body(result, axes, scale=None):
     sides. scale: how many times displacements are shown."""
     if result.dimension == 3:
         return body_in_space(result, axes, scale)
-    from matplotlib.collections import LineCollection
     cells = result.grid(PER_CELL)
     x, u, stress = cells["x"], cells["u"], von_mises(cells["stress"])
     scale = round_scale(u, x) if scale is None else scale
@@ -165,7 +170,7 @@ def bar(axes, colours, words, is_cut=False, ticks=None):
     """Below wide pictures, beside tall ones."""
     is_wide = np.ptp(axes.get_ylim()) < 0.7 * np.ptp(axes.get_xlim())
     axes.figure.colorbar(colours, ax=axes, label=words, extend="max" if is_cut else "neither", location="bottom" if is_wide else "right",
-                         aspect=30, shrink=0.9, pad=0.03, ticks=drawing_library().MaxNLocator(5) if ticks is None else ticks)
+                         aspect=30, shrink=0.9, pad=0.03, ticks=MaxNLocator(5) if ticks is None else ticks)
 
 
 def frame(axes, result, x):
@@ -230,7 +235,6 @@ def draw_states(result, axes, scale):
 def key_of_states(axes, present):
     if not present:
         return
-    from matplotlib.lines import Line2D
     handles = [Line2D([], [], color=STATES[state], linewidth=4, label=state) for state in present]
     axes.legend(handles=handles, **BELOW, ncol=len(present), handlelength=1.2, frameon=False)
 
@@ -238,8 +242,6 @@ def key_of_states(axes, present):
 def mesh(result, axes, is_moved=False, window=None):
     """The cells with their polynomial degrees as colours, and as digits where there is room. is_moved: of the deformed body; window: ((x from, to),
     (y from, to)) of what is shown."""
-    from matplotlib.collections import PolyCollection
-    from matplotlib.colors import BoundaryNorm, ListedColormap
     cells, degrees = result.grid(PER_CELL), result.mesh.degrees
     scale = round_scale(cells["u"], cells["x"]) if is_moved else 0
     x = cells["x"] + scale * cells["u"]
@@ -288,7 +290,6 @@ def faces_in_view(x):
 
 
 def body_in_space(result, axes, scale=None):
-    from matplotlib.collections import PolyCollection
     cells = result.grid(PER_CELL)
     x, u, stress = cells["x"], cells["u"], von_mises(cells["stress"])
     scale = round_scale(u, x) if scale is None else scale
@@ -534,9 +535,9 @@ def decades(axes, is_history):
         low, high = np.log10(limits)
         if high - low < 1.2:
             set_limits(10 ** math.floor(low), 10 ** math.ceil(high))
-        axis.set_minor_formatter(drawing_library().NullFormatter())
+        axis.set_minor_formatter(NullFormatter())
     if is_history:
-        axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+        axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
 
 
 # ------------------------------------------------------------------ load histories
@@ -566,7 +567,7 @@ def loops(result):
 
 def of_energies(result, axes, words, name, title):
     axes.set(xlabel=words, ylabel=label(name, results.unit_of_load(result.stress_unit, result.length_unit, True), "energy"), title=title)
-    axes.xaxis.set_major_locator(drawing_library().MaxNLocator(6, integer=True))
+    axes.xaxis.set_major_locator(MaxNLocator(6, integer=True))
 
 
 def energies(result, axes):
@@ -588,7 +589,7 @@ def cycles(result, axes):
 def load_steps(run, axes, name, what="pressure", most=6):
     """Pressure or friction of one contact at the ends of load steps, in one chart: most of them, dark the last one. Of a Run with the files of all steps."""
     numbers = np.unique(np.linspace(0, len(run.loading["step"]) - 1, most).round().astype(int))
-    colours = drawing_library().get_cmap("viridis_r")(np.linspace(0.1, 1, len(numbers)))
+    colours = pyplot.get_cmap("viridis_r")(np.linspace(0.1, 1, len(numbers)))
     values = []
     for k, colour in zip(numbers, colours):
         line = next((one for one in run.lines_of(run.loading["step"][k]) if one.name == name), None)

@@ -71,8 +71,11 @@ class Table:
 
 
 def picture(function, *arguments, **options):
-    """What a function of hpvi.plot draws. Its remarks are the caption."""
-    text, remarks = plot.svg(function, *arguments, **options)
+    """What a function of hpvi.plot draws, its remarks as the caption, or why it does not."""
+    try:
+        text, remarks = plot.svg(function, *arguments, **options)
+    except RunError as problem:
+        return f"No picture: {problem}."
     caption = "; ".join(remarks)
     return dict(svg=base64.b64encode(text.encode()).decode(), caption=caption[:1].upper() + caption[1:])
 
@@ -143,12 +146,10 @@ class Teller:
             size = f"{words.at_most(100 * relative)} % of the solution" if relative is not None else f"{words.at_most(bound['energy_norm'])}"
             text = "Error in the energy norm: " + words.error(bound["kind"], size, summary.get("coupling"), summary.get("zones_assumed"))
             return f"{text}; but the run contradicts it, see the warnings." if summary.get("contradiction") else f"{text}."
-        estimate = (summary.get("error_estimate_equilibrated") or {}).get("relative")
-        if estimate is not None:
-            return f"Error in the energy norm: {words.error('estimate', f'{words.digits(100 * estimate, 2)} % of the solution')} by a stress in equilibrium."
-        indicator = self.last.get("estimate_relative")
-        if indicator is not None:
-            return f"Error in the energy norm: {words.error('estimate', f'{words.digits(100 * indicator, 2)} % of the solution')} by the indicator, which is no bound."
+        for estimate, by in (((summary.get("error_estimate_equilibrated") or {}).get("relative"), "a stress in equilibrium"),
+                             (self.last.get("estimate_relative"), "the indicator, which is no bound")):
+            if estimate is not None:
+                return f"Error in the energy norm: {words.error('estimate', f'{words.digits(100 * estimate, 2)} % of the solution')} by {by}."
         return ""
 
     def about(self):
@@ -240,27 +241,21 @@ class Teller:
         if not peaks:
             value = contact.get("largest_pressure") or 0
             return f"pressure up to {number(value, run.stress_unit)}{self.at(contact, 'largest_pressure_at')}" if value > 0 else ""
-        return self.of_peaks("pressure", peaks, self.pressure_beyond(name, peaks))
-
-    def pressure_beyond(self, name, peaks):
-        for title, rows in results.contacts(self.run.contact).items():
-            if title == name or name.endswith(f"({title})"):
-                own = results.where(self.run.contact, rows)
-                return beyond(np.stack([own[axis] for axis in "xyz" if axis in own], axis=1), -own["normal_traction"], peaks)
-        return beyond(np.zeros((0, self.run.dimension)), np.zeros(0), peaks)
+        rows = next((rows for title, rows in results.contacts(run.contact).items() if title == name or name.endswith(f"({title})")), [])
+        own = results.where(run.contact, rows)
+        return self.of_peaks("pressure", peaks, [own[axis] for axis in "xyz" if axis in own], -own.get("normal_traction", np.zeros(0)))
 
     def of_stress(self, stress):
-        peaks = stress.get("unbounded") or []
+        peaks, cells = stress.get("unbounded") or [], self.cells
         if not peaks:
             return self.number(stress["largest"], self.run.stress_unit) + self.at(stress)
-        x, values = np.zeros((0, self.run.dimension)), np.zeros(0)
-        if self.cells is not None:
-            x, values = self.cells["x"].reshape(-1, self.run.dimension), von_mises(self.cells["stress"]).ravel()
-        away = beyond(x, values, peaks)
-        return self.of_peaks("it", peaks, away)
+        known = (cells["x"].reshape(-1, self.run.dimension).T, von_mises(cells["stress"]).ravel()) if cells else ([], [])
+        return self.of_peaks("it", peaks, *known)
 
-    def of_peaks(self, name, peaks, away):
+    def of_peaks(self, name, peaks, x, values):
+        """x: where values are known, an array for each coordinate."""
         number, stress, length = self.number, self.run.stress_unit, self.run.length_unit
+        away = beyond(np.stack(x, axis=1) if len(x) else np.zeros((0, self.run.dimension)), values, peaks)
         some = peaks[:6]
         places = ", ".join(number.place(peak["at"]) for peak in some) + (f" and {len(peaks) - len(some)} places more" if len(peaks) > len(some) else "")
         reach = f"{words.digits(max(peak['beyond'] for peak in peaks), 2)} {length}".rstrip()
@@ -281,26 +276,20 @@ class Teller:
 
     def probes(self):
         found, run = self.run.probes(), self.run
-        names = [end for end in ("ux", "uy", "uz", "s1", "s2", "s3", "szz", "mises") if any(end in own for own in found.values())]
+        names = [end for end in results.PROBED if any(end in own for own in found.values())]
         units = {end: run.length_unit if end[0] == "u" else run.stress_unit for end in names}
         size = {kind: max((abs(own[end][0]) for own in found.values() for end in own if (end[0] == "u") == kind), default=0) for kind in (True, False)}
         rows = [[name] + [self.number(own[end][0], half=own[end][1], largest=size[end[0] == "u"]) if end in own else "" for end in names]
                 for name, own in found.items()]
-        head = ["probe"] + [f"{'von Mises' if end == 'mises' else end}" + (f" [{units[end]}]" if units[end] else "") for end in names]
+        head = ["probe"] + [f"{'von Mises' if end == 'mises' else end}" + bracket(units[end]) for end in names]
         return Table(head, rows, "Probes")
 
     # -------------------------------------------------------------- pictures
 
-    def attempt(self, function, *arguments, **options):
-        try:
-            return picture(function, *arguments, **options)
-        except RunError as problem:
-            return f"No picture: {problem}."
-
     def field(self):
         if self.cells is None:
             return f"No picture of stress and displacement: {self.no_cells}."
-        return self.attempt(plot.body, self.run, size=(4.6, self.height()))
+        return picture(plot.body, self.run, size=(4.6, self.height()))
 
     def height(self):
         """Of a picture of the body with its bar and words [inches]."""
@@ -314,7 +303,7 @@ class Teller:
             return "Of scenes in space there is no picture."
         if not self.run.scene:
             return "No picture of the scene: there is no scene.json; hpvi --report writes it."
-        return self.attempt(plot.scene, self.run.scene, is_brief=True, size=(4.6, min(5., 1.4 + self.height())))
+        return picture(plot.scene, self.run.scene, is_brief=True, size=(4.6, min(5., 1.4 + self.height())))
 
     def charts(self):
         run, charts = self.run, []
@@ -322,11 +311,11 @@ class Teller:
             charts += self.of_contacts()
         if run.loading and len(run.loading["step"]) > 1:
             charts += self.of_history()
-        charts += [self.attempt(plot.probe, run, name) for name in run.probe_lines]
+        charts += [picture(plot.probe, run, name) for name in run.probe_lines]
         if len(run.steps.get("step", [])) > 1 and plot.error_columns(run):
-            charts.append(self.attempt(plot.convergence, run))
+            charts.append(picture(plot.convergence, run))
         if run.dimension == 2 and self.cells is not None:
-            charts.append(self.attempt(plot.mesh, run, size=(4.6, self.height())))
+            charts.append(picture(plot.mesh, run, size=(4.6, self.height())))
         return charts
 
     def of_contacts(self):
@@ -334,30 +323,30 @@ class Teller:
         if not run.contact:
             return ["No chart of contact: there is no contact-NN.csv of the last step; set Output/Contact tables = true to have it."]
         if run.dimension == 3:
-            charts = [self.attempt(plot.surface, run, name=name, what=what) for name in list(results.contacts(run.contact))[:2] for what in ("state", "pressure")]
+            charts = [picture(plot.surface, run, name=name, what=what) for name in list(results.contacts(run.contact))[:2] for what in ("state", "pressure")]
         else:
-            charts = [self.attempt(plot.contact, run, line) for line in run.lines[:MOST_CONTACTS]]
+            charts = [picture(plot.contact, run, line) for line in run.lines[:MOST_CONTACTS]]
         n = len(results.contacts(run.contact)) - (2 if run.dimension == 3 else MOST_CONTACTS)
         return charts + ([f"contact-NN.csv has {n} contacts more."] if n > 0 else [])
 
     def of_history(self):
         run, charts = self.run, []
-        charts += [self.attempt(plot.loop, run, *where) for where in plot.loops(run)[:2]]
+        charts += [picture(plot.loop, run, *where) for where in plot.loops(run)[:2]]
         if run.dimension == 2:
             for line in run.lines[:2]:
                 for what in ("pressure", "friction"):
                     column = "normal_traction" if what == "pressure" else "tangential_traction"
                     if all(one[column].any() for one in run.lines_of(run.loading["step"][0]) or [line] if one.name == line.name) and line[column].any():
-                        charts.append(self.attempt(plot.load_steps, run, line.name, what))
+                        charts.append(picture(plot.load_steps, run, line.name, what))
         if run.dimension == 2 and run.contact_history:
             for name, rows in list(results.contacts(run.contact_history).items())[:2]:
                 for columns, kind in (({"slip_path": "path", "slip_range": "range"}, "slip"), ({"wear_depth": "depth"}, "wear depth")):
                     values = [run.contact_history[column][rows] for column in columns]
                     if any(np.nan_to_num(np.asarray(one, float)).any() for one in values if one.dtype.kind in "fi"):
-                        charts.append(self.attempt(plot.history, run, name, columns, plot.label(kind, run.length_unit, "length")))
+                        charts.append(picture(plot.history, run, name, columns, plot.label(kind, run.length_unit, "length")))
         if run.cycles and len(run.cycles["cycle"]) > 1:
-            charts.append(self.attempt(plot.cycles, run))
-        return charts + [self.attempt(plot.energies, run)]
+            charts.append(picture(plot.cycles, run))
+        return charts + [picture(plot.energies, run)]
 
     # -------------------------------------------------------------- tables
 

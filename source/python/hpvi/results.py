@@ -20,7 +20,7 @@ from collections import namedtuple
 import numpy as np
 
 WORDS = {"state", "boundary", "contact", "master", "name", "kind", "transitions", "stopped_by", "bound_kind", "coulomb_method"}
-STATES = ("open", "slip", "stick")  # as files of ParaView count them
+PROBED = ("ux", "uy", "uz", "s1", "s2", "s3", "szz", "mises")  # a probe's columns end so
 
 Mesh = namedtuple("Mesh", "vertices cells degrees")
 
@@ -185,6 +185,11 @@ def breaks(x):
     return np.flatnonzero((steps > 4 * beside) & (beside > 0)) + 1
 
 
+def lengths(x):
+    """Along the way from point to point of (n, 2), from the first one."""
+    return np.append(0, np.hypot(*np.diff(x, axis=0).T).cumsum())
+
+
 class Line:
     """The points of one contact in the plane in their order: `name`, `title`, columns (`line["normal_traction"]`), `x` (n, 2),
     `s` the arc length from its beginning [length], `starts` where its pieces begin."""
@@ -195,7 +200,7 @@ class Line:
         self.boundary = str(columns["boundary"][0])
         self.title = name if name == self.boundary else f"{name} ({self.boundary})"
         ahead = 0 if begin is None else math.hypot(*(self.x[0] - begin))
-        self.s = s if s is not None else ahead + np.append(0, np.hypot(*np.diff(self.x, axis=0).T).cumsum())
+        self.s = s if s is not None else ahead + lengths(self.x)
         self.starts = breaks(self.x) if starts is None else starts
 
     def __getitem__(self, name):
@@ -288,12 +293,9 @@ class Run:
     def table(self, name):
         return table(self.text(name))
 
-    def numbered(self, name, step, suffix):
-        return f"{name}-{step:02d}.{suffix}"
-
     def contact_of(self, step):
         """The columns of contact-NN.csv of a step, {} where that is not there."""
-        return self.table(self.numbered("contact", step, "csv"))
+        return self.table(f"contact-{step:02d}.csv")
 
     @functools.cached_property
     def entries(self):
@@ -371,7 +373,7 @@ class Run:
 
     def lines_of(self, step):
         columns, found = self.contact_of(step), []
-        path = self.directory / self.numbered("contact", step, "vtu")
+        path = self.directory / f"contact-{step:02d}.vtu"
         vtu = Vtu(path) if columns and path.exists() else None
         for name, rows in contacts(columns).items():
             if vtu is None or len(vtu["points"]) != len(columns["x"]):
@@ -387,13 +389,10 @@ class Run:
         return found
 
     def begin_of(self, name):
-        zones = self.contact_words(name).get("zones")
+        """Where the first zone of a contact begins: of a pair on a part of a side summary.json has the name behind that of the side."""
+        known = (words for title, words in (self.summary.get("contact") or {}).items() if title == name or title.endswith(f"({name})"))
+        zones = next(known, {}).get("zones")
         return zones[0]["from"][:2] if zones else None
-
-    def contact_words(self, name):
-        """What summary.json says of a contact: a pair on a part of a side has its name behind that of the side."""
-        known = self.summary.get("contact") or {}
-        return next((words for title, words in known.items() if title == name or title.endswith(f"({name})")), {})
 
     @functools.cached_property
     def probe_lines(self):
@@ -406,7 +405,7 @@ class Run:
         last, found = self.summary.get("final") or {}, {}
         for name in self.sections("Probe"):
             own = {end: (last[f"{name}_{end}"], last.get(f"{name}_{end}_bound"))
-                   for end in ("ux", "uy", "uz", "s1", "s2", "s3", "szz", "mises") if last.get(f"{name}_{end}") is not None}
+                   for end in PROBED if last.get(f"{name}_{end}") is not None}
             if own and self.entries.get(f"Probe {name}/From", "") == "":
                 found[name] = own
         return found

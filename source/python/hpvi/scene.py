@@ -4,13 +4,27 @@ import math
 import textwrap
 
 import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.font_manager import FontProperties
+from matplotlib.patches import Circle, Patch
+from matplotlib.textpath import text_to_path
 
-from .results import label, pretty
+from .results import label, lengths, pretty
 from .words import digits
 
 GROUND, LOAD, SUPPORT, CONTACT, PROBE, GREY = "#222222", "#b8500a", "#0072b2", "#00704f", "#8a2be2", "#666666"
 MATERIALS = ("#e6edf5", "#f6d9a8", "#8fcbb0", "#dcc0ea", "#6f9bd1", "#e3da5c", "#a3a3a3", "#f0957f")  # whoever looks
 FONT, LINE = 8.5, 10.5  # points
+
+
+def interpolated(s, places, values):
+    """Values (n,) or vectors (n, 2) between places, at s."""
+    return np.interp(s, places, values) if values.ndim == 1 else np.stack([np.interp(s, places, one) for one in values.T], axis=1)
+
+
+def left(way):
+    """What is turned by 90 degrees, counterclockwise: of vectors (..., 2)."""
+    return np.stack([-way[..., 1], way[..., 0]], axis=-1)
 
 
 class Part:
@@ -21,16 +35,19 @@ class Part:
             return np.concatenate([np.array(edge[name], float)[k > 0:] for k, edge in enumerate(edges)])
 
         self.x = joined("x")
-        self.s = np.append(0, np.hypot(*np.diff(self.x, axis=0).T).cumsum())
+        self.s = lengths(self.x)
         self.data = {name: None if edges[0][name] is None else joined(name) for name in ("gap", "traction", "displacement")}
 
     def at(self, s):
         """Places and outer normals at lengths s (m,)."""
-        x = np.stack([np.interp(s, self.s, self.x[:, d]) for d in (0, 1)], axis=1)
         k = np.clip(np.searchsorted(self.s, s, side="right") - 1, 0, len(self.s) - 2)
         way = self.x[k + 1] - self.x[k]
         way /= np.hypot(*way.T)[:, None]
-        return x, np.stack([way[:, 1], -way[:, 0]], axis=1)
+        return interpolated(s, self.s, self.x), -left(way)
+
+    def middle(self):
+        """Its place and outer normal."""
+        return (values[0] for values in self.at(np.array([self.s[-1] / 2])))
 
     def along(self, spacing, with_ends=False):
         """Equidistant lengths, spacing or so from each other."""
@@ -38,10 +55,7 @@ class Part:
         return np.linspace(0, self.s[-1], n + 1) if with_ends else (np.arange(n) + 0.5) * self.s[-1] / n
 
     def values(self, name, s):
-        data = self.data[name]
-        if data.ndim == 1:
-            return np.interp(s, self.s, data)
-        return np.stack([np.interp(s, self.s, data[:, d]) for d in (0, 1)], axis=1)
+        return interpolated(s, self.s, self.data[name])
 
 
 def parts_of(edges):
@@ -82,7 +96,6 @@ class Sheet:
         return self.axes.plot(*np.asarray(x).T, clip_on=False, **style)
 
     def strokes(self, begins, ends, **style):
-        from matplotlib.collections import LineCollection
         self.marks += [np.asarray(begins), np.asarray(ends)]
         self.axes.add_collection(LineCollection(np.stack([begins, ends], axis=1), clip_on=False, **style))
 
@@ -95,10 +108,9 @@ class Sheet:
     def ground(self, x, n, **style):
         """A line with short strokes that lean, on its outer side."""
         self.line(x, color=GROUND, **{"linewidth": 1.3, **style})
-        s = np.append(0, np.hypot(*np.diff(x, axis=0).T).cumsum())
-        places = np.arange(self.u, s[-1], 2.2 * self.u)
-        at, out = (np.stack([np.interp(places, s, values[:, d]) for d in (0, 1)], axis=1) for values in (x, n))
-        lean = out * 1.7 * self.u + np.stack([-out[:, 1], out[:, 0]], axis=1) * 1.3 * self.u
+        s = lengths(x)
+        at, out = (interpolated(np.arange(self.u, s[-1], 2.2 * self.u), s, values) for values in (x, n))
+        lean = out * 1.7 * self.u + left(out) * 1.3 * self.u
         self.strokes(at, at + lean, color=GROUND, linewidth=0.7)
 
     def note(self, place, outward, lines, gid=None):
@@ -124,7 +136,7 @@ def draw_supports(sheet, boundary, part, band):
             way = axis if axis @ normal >= -1e-9 else -axis
             is_beside = way @ normal < 0.5
             tip = place + (band + (2.5 if is_beside else 0.3) * u) * normal
-            across = np.array([-way[1], way[0]])
+            across = left(way)
             sheet.line([tip, tip + 2.4 * u * way + 1.5 * u * across, tip + 2.4 * u * way - 1.5 * u * across, tip], color=GROUND, linewidth=1)
             sheet.line([tip + 3.2 * u * way - 2 * u * across, tip + 3.2 * u * way + 2 * u * across], color=GROUND, linewidth=1)
         band += 5.5 * u
@@ -142,8 +154,7 @@ def draw_springs(sheet, part, band):
     x, n = part.at(part.along(7 * u))
     shape = np.array([(0, 0), (1, 1), (2, -1), (3, 1), (4, -1), (5, 0), (6, 0)])
     for place, normal in zip(x, n):
-        across = np.array([-normal[1], normal[0]])
-        sheet.line(place + band * normal + shape[:, :1] * u * normal + shape[:, 1:] * u * across, color=GROUND, linewidth=0.9)
+        sheet.line(place + band * normal + shape[:, :1] * u * normal + shape[:, 1:] * u * left(normal), color=GROUND, linewidth=0.9)
     x, n = part.at(part.along(2 * u, True))
     sheet.ground(x + (band + 6 * u) * n, n)
     return band + 9 * u
@@ -154,7 +165,7 @@ def draw_plate(sheet, plate, part, band):
     x, n = part.at(part.along(2 * u, True))
     sheet.axes.fill(*np.concatenate([x + (band + 0.3 * u) * n, (x + (band + 2.3 * u) * n)[::-1]]).T, color=GROUND, linewidth=0)
     band += 2.6 * u
-    place, normal = (values[0] for values in part.at(np.array([part.s[-1] / 2])))
+    place, normal = part.middle()
     force = np.array(plate["force"])
     if force.any():
         way = 10 * u * force / np.hypot(*force)
@@ -163,9 +174,8 @@ def draw_plate(sheet, plate, part, band):
         sheet.arrow(tip - way if pushes else tip, tip if pushes else tip + way, LOAD, gid="plate")
         band += max(u, abs(way @ normal))
     if plate["moment"]:
-        across = np.array([-normal[1], normal[0]])
         angle = np.linspace(0, math.pi, 21)[::1 if plate["moment"] > 0 else -1]
-        arc = place + band * normal - 4 * u * np.cos(angle)[:, None] * across + 4 * u * np.sin(angle)[:, None] * normal
+        arc = place + band * normal - 4 * u * np.cos(angle)[:, None] * left(normal) + 4 * u * np.sin(angle)[:, None] * normal
         sheet.line(arc, color=LOAD, linewidth=1.2)
         sheet.arrow(arc[-4], arc[-1], LOAD)
         band += 5 * u
@@ -255,7 +265,7 @@ def draw_boundaries(sheet):
             for name, colour in (("traction", LOAD), ("displacement", SUPPORT)):
                 band = draw_vectors(sheet, boundary, part, band, name, colour, largest[name])
             if part is longest and boundary["name"]:
-                place, normal = (values[0] for values in part.at(np.array([part.s[-1] / 2])))
+                place, normal = part.middle()
                 sheet.note(place + band * normal, normal, words_of(sheet, boundary), f"boundary {boundary['name']}")
 
 
@@ -263,7 +273,6 @@ def draw_boundaries(sheet):
 
 
 def draw_cells(sheet):
-    from matplotlib.collections import PolyCollection
     cells = sheet.scene["cells"]
     sheet.axes.add_collection(PolyCollection([cell["outline"] for cell in cells], facecolors=[MATERIALS[cell["material"] % 8] for cell in cells],
                                              edgecolors="#8a97a6", linewidths=0.5 if len(cells) < 500 else 0.2, gid="cells"))
@@ -296,7 +305,6 @@ def draw_loads_inside(sheet):
 
 
 def draw_probes(sheet):
-    from matplotlib.patches import Circle
     for probe in sheet.scene["probes"]:
         place, outward = np.array(probe["at"]), np.array([0.7, 0.7])
         if probe["kind"] == "point":
@@ -321,8 +329,6 @@ def draw_probes(sheet):
 
 def extents(lines):
     """Width and height of a box of lines [points]."""
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import text_to_path
     fonts = [FontProperties(size=FONT, weight=weight) for weight in ("normal", "bold")]
     widths = [text_to_path.get_text_width_height_descent(words, fonts[is_bold], False)[0] for words, _, is_bold in lines]
     return np.array([max(widths), LINE * len(lines)])
@@ -342,7 +348,7 @@ def place_notes(sheet, scale, marks):
     for note in sheet.notes:
         place, outward, _, _, size = note
         size = size * scale
-        across = np.array([-outward[1], outward[0]])
+        across = left(outward)
         for reach in range(150):
             step, aside = divmod(reach, 5)
             centres = [place + outward * (abs(outward) @ size / 2 + (4 + 3 * step) * scale) + across * side * aside * 0.4 * (abs(across) @ size) for side in (1, -1)]
@@ -421,18 +427,9 @@ def scene(data, axes, is_brief=False):
 
 def key_of_materials(axes, materials):
     """Its lines are no longer than the picture is wide."""
-    from matplotlib.patches import Patch
     if len(materials) < 2:
         return
     width = int(axes.figure.get_figwidth() * 72 / 5) - 12
     labels = ["\n".join(textwrap.wrap(f"{one['name']}: {one['words']}", width)) for one in materials]
     axes.legend(handles=[Patch(facecolor=MATERIALS[one["number"] % 8], edgecolor=GROUND, label=words) for one, words in zip(materials, labels)],
                 loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=3.9, frameon=False, fontsize=FONT, handlelength=1.4)
-
-
-def scene_svg(data):
-    """A picture of its own as SVG, with its title: what `hpvi --picture` writes."""
-    from . import plot
-    size = np.ptp(np.concatenate([cell["outline"] for cell in data.get("cells") or [{"outline": [[0, 0], [1, 1]]}]]), axis=0)
-    text, _ = plot.svg(scene, data, size=(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8))))
-    return "<!-- the scene, drawn by hpvi -->\n" + text[text.index("<svg"):]
