@@ -188,7 +188,7 @@ def normals(line):
         return np.zeros_like(line.x)
     way = np.gradient(line.x, axis=0)
     way /= np.maximum(np.hypot(*way.T), 1e-300)[:, None]
-    return np.stack([way[:, 1], -way[:, 0]], axis=1)
+    return -results.left(way)
 
 
 def motion(result, line):
@@ -208,8 +208,7 @@ def opposite(line, u):
     known = np.stack([line["normal_displacement"], line["tangential_displacement"]], axis=1)
 
     def vector(sign, parts):  # t = (-n_y, n_x)
-        normal = sign * n
-        return parts[:, :1] * normal + parts[:, 1:] * np.stack([-normal[:, 1], normal[:, 0]], axis=1)
+        return parts[:, :1] * sign * n + parts[:, 1:] * results.left(sign * n)
 
     sign = min((1, -1), key=lambda one: np.nan_to_num(abs(vector(one, known) - u)).sum())
     distance = np.nan_to_num(line["gap"] + line["jump_normal"]) if line.get("gap") is not None else np.zeros(len(n))
@@ -389,17 +388,15 @@ def contact(result, axes, line=None):
         if len(every) > 1:
             return several_contacts(result, axes, every)
         line, = every
-    has_friction = bool((line["tangential_traction"] != 0).any())
-    window = closed_range(line)
-    axes.plot(line.broken(line.s), line.broken(line.pressure), "-", color=BLACK, label="pressure")
-    if has_friction:
-        friction, limit = line["tangential_traction"], friction_limit(line)
-        axes.plot(line.broken(line.s), line.broken(friction), "--", color=GREEN, label="friction")
+    curves = {"pressure": line.pressure}
+    draw_along(axes, line, line.pressure, "-", color=BLACK, label="pressure")
+    if line["tangential_traction"].any():
+        curves["friction"] = line["tangential_traction"]
+        draw_along(axes, line, line["tangential_traction"], "--", color=GREEN, label="friction")
         for sign, words in ((1, "limit of friction"), (-1, None)):
-            axes.plot(line.broken(line.s), line.broken(sign * limit), ":", color=GREY, label=words)
-    values = [line.pressure] + ([line["tangential_traction"]] if has_friction else [])
-    window = window or (line.s[0], line.s[-1])
-    remarks = cut(axes, line, values, window, result.stress_unit)
+            draw_along(axes, line, sign * friction_limit(line), ":", color=GREY, label=words)
+    window = closed_range(line) or (line.s[0], line.s[-1])
+    remarks = cut(axes, line, curves, window, result.stress_unit)
     if window[0] < window[1]:
         axes.set_xlim(*window)
     band(axes, line)
@@ -410,19 +407,30 @@ def contact(result, axes, line=None):
     return [f"contact {line.title} over its arc length"] + remarks
 
 
-def several_contacts(result, axes, every):
-    """Pressures in one colour each, friction dashed."""
-    remarks = []
-    bounds = []
-    for line, colour in zip(every, itertools.cycle((BLUE, ORANGE, BLACK, GREEN, GREY))):
-        axes.plot(line.broken(line.s), line.broken(line.pressure), "-", color=colour, label=f"pressure, {line.title}")
-        axes.plot(line.broken(line.s), line.broken(line["tangential_traction"]), "--", color=colour, label=f"friction, {line.title}")
-        bounds += [sign * usual((sign * values).clip(0), line.weights(), 0.97, 1.5) for values in (line.pressure, line["tangential_traction"]) for sign in (1, -1)]
-    low, high = min(bounds), max(bounds)
+def draw_along(axes, line, values, style, **options):
+    axes.plot(line.broken(line.s), line.broken(values), style, **options)
+
+
+def usual_range(curves, weights):
+    """Between which most values of curves are, and 0."""
+    return min(-usual((-v).clip(0), weights, 0.97, 1.5) for v in curves), max(usual(v.clip(0), weights, 0.97, 1.5) for v in curves)
+
+
+def show_range(axes, ranges):
+    """The y axis of curves whose usual ranges these are."""
+    low, high = min((low for low, _ in ranges), default=0), max((high for _, high in ranges), default=0)
     if low < high:
         axes.set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
+
+
+def several_contacts(result, axes, every):
+    """Pressures in one colour each, friction dashed."""
+    for line, colour in zip(every, itertools.cycle((BLUE, ORANGE, BLACK, GREEN, GREY))):
+        draw_along(axes, line, line.pressure, "-", color=colour, label=f"pressure, {line.title}")
+        draw_along(axes, line, line["tangential_traction"], "--", color=colour, label=f"friction, {line.title}")
+    show_range(axes, [usual_range((line.pressure, line["tangential_traction"]), line.weights()) for line in every])
     finish(axes, "contact", result, columns=1)
-    return remarks
+    return []
 
 
 def finish(axes, title, result, columns=3):
@@ -433,19 +441,17 @@ def finish(axes, title, result, columns=3):
     axes.legend(**BELOW, ncol=columns, columnspacing=1.2, handlelength=1.8)
 
 
-def cut(axes, line, values, window, unit):
+def cut(axes, line, curves, window, unit):
     """Ends the axis where few values are beyond, and marks these: triangles at its end, with the largest one. Returns what to say of them."""
     inside = (line.s >= window[0]) & (line.s <= window[1])
-    weights = line.weights() * inside
-    high = max(usual(v.clip(0), weights, 0.97, 1.5) for v in values)
-    low = min(-usual((-v).clip(0), weights, 0.97, 1.5) for v in values)
+    low, high = usual_range(curves.values(), line.weights() * inside)
     if not low < high:
         return []
     room = 0.15 * (high - low)
     low, high = low - (room if low < 0 else 0), high + (room if high > 0 else 0)
     axes.set_ylim(low - 0.08 * (high - low), high)
     remarks, written = [], {}
-    for name, v in zip(("pressure", "friction"), values):
+    for name, v in curves.items():
         for sign, end in ((1, high), (-1, low)):
             beyond = np.flatnonzero(inside & (sign * v > sign * end))
             for group in groups(beyond, line.s, 0.1 * (window[1] - window[0])):
@@ -590,17 +596,15 @@ def load_steps(run, axes, name, what="pressure", most=6):
     """Pressure or friction of one contact at the ends of load steps, in one chart: most of them, dark the last one. Of a Run with the files of all steps."""
     numbers = np.unique(np.linspace(0, len(run.loading["step"]) - 1, most).round().astype(int))
     colours = pyplot.get_cmap("viridis_r")(np.linspace(0.1, 1, len(numbers)))
-    values = []
+    ranges = []
     for k, colour in zip(numbers, colours):
         line = next((one for one in run.lines_of(run.loading["step"][k]) if one.name == name), None)
         if line is None:
             continue
         y = line.pressure if what == "pressure" else line["tangential_traction"]
-        values += [usual(y.clip(0), line.weights(), 0.97, 1.5), -usual((-y).clip(0), line.weights(), 0.97, 1.5)]
-        axes.plot(line.broken(line.s), line.broken(y), color=colour, linewidth=1.2, label=f"{run.loading['load_step'][k]}")
-    if values and min(values) < max(values):
-        room = 0.1 * (max(values) - min(values))
-        axes.set_ylim(min(values) - room, max(values) + room)
+        ranges.append(usual_range([y], line.weights()))
+        draw_along(axes, line, y, "-", color=colour, linewidth=1.2, label=f"{run.loading['load_step'][k]}")
+    show_range(axes, ranges)
     axes.set(xlabel=label("arc length", run.length_unit, "length"), ylabel=label(what, run.stress_unit, "stress"), title=f"{what}, {name}")
     axes.legend(**BELOW, ncol=6, title="at the end of load step", handlelength=1, columnspacing=1)
     return [f"{what} of contact {name} at the ends of load steps"]
@@ -611,7 +615,7 @@ def history(result, axes, name, columns, words):
     table = result.contact_history
     line = results.Line(name, results.where(table, results.contacts(table)[name]))
     for (column, what), style, colour in zip(columns.items(), ("-", "--", ":"), (BLACK, ORANGE, BLUE)):
-        axes.plot(line.broken(line.s), line.broken(line[column]), style, color=colour, label=what)
+        draw_along(axes, line, line[column], style, color=colour, label=what)
     axes.set(xlabel=label("arc length", result.length_unit, "length"), ylabel=words, title=f"history, {name}")
     axes.legend(**BELOW, ncol=3)
     return [f"contact {name} over its arc length, up to the end of the history"]

@@ -60,7 +60,7 @@ def page(run):
         raise ImportError("the report needs jinja2; install python3-jinja2") from None
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     template = environment.from_string((pathlib.Path(__file__).with_name("report.html")).read_text(encoding="utf-8"))
-    return template.render(Teller(run).parts())
+    return template.render(tell=Teller(run), run=run, summary=run.summary, scene=run.scene or {})
 
 
 class Table:
@@ -100,19 +100,6 @@ class Teller:
         except RunError:
             return 0.
 
-    def parts(self):
-        run, summary = self.run, self.summary
-        is_done, ending = self.ending()
-        changed = (run.scene or {}).get("changed")
-        return dict(
-            title=summary["title"] or summary["scene"], error=self.error(), is_done=is_done, ending=ending, about=self.about(),
-            answer=self.answer(), zones=self.zones(), probes=self.probes(), field=self.field(),
-            scene_words=(run.scene or {}).get("words", []), scene=self.scene(), charts=self.charts(), forces=self.forces(), balance=self.balance(),
-            steps=self.steps(), warnings=run.warnings, times=self.times(),
-            read_from=f"; it was read from {summary['scene_file']}" if summary.get("scene_file") else "",
-            command=(f"mpirun -np {summary['processes']} " if summary["processes"] != 1 else "") + "hpvi --output again scene.prm",
-            listing=self.listing(changed), listing_words="Entries that are not at their defaults:" if changed is not None else "Entries:")
-
     # -------------------------------------------------------------- the first lines
 
     def ending(self):
@@ -151,11 +138,6 @@ class Teller:
             if estimate is not None:
                 return f"Error in the energy norm: {words.error('estimate', f'{words.digits(100 * estimate, 2)} % of the solution')} by {by}."
         return ""
-
-    def about(self):
-        summary = self.summary
-        of = f", {summary['processes']} processes" if summary["processes"] != 1 else ""
-        return f"Scene {summary['scene']}, computed by {summary['program']} ({summary['build']} build), deal.II {summary['deal.II']}{of}"
 
     # -------------------------------------------------------------- the answer
 
@@ -406,9 +388,10 @@ class Teller:
         return (f"Seconds: {words.digits(sum(stages.values()), 3)} in all, " + ", ".join(f"{name} {words.digits(seconds, 2)}" for name, seconds in stages.items())
                 + (f"; memory {memory / 1e6:.0f} MB" if memory else "") + ".")
 
-    def listing(self, changed):
-        entries = self.run.entries
-        return "\n".join(f"{path} = {value}" for path, value in entries.items() if changed is None or path in changed)
+    def listing(self):
+        """Of entries those that are not at their defaults, where that is known."""
+        changed = (self.run.scene or {}).get("changed")
+        return "\n".join(f"{path} = {value}" for path, value in self.run.entries.items() if changed is None or path in changed)
 
 
 def bracket(unit):

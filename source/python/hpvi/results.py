@@ -57,23 +57,20 @@ def where(columns, chosen):
 # ------------------------------------------------------------------ fields
 
 
-class Vtu:
+class Vtu(dict):
     """The arrays of one file .vtu, which has values between 64-bit or 32-bit numbers, packed by zlib."""
 
     def __init__(self, path):
         self.file = path.name
         try:
             text = path.read_text(encoding="latin-1")
-            self.arrays = {self.name(attributes): self.decode(attributes, data)
-                           for attributes, data in re.findall(r"<DataArray([^>]*)>\s*([^<\s]+)", text) if "binary" in attributes}
-            self.arrays["points"], self.arrays["offsets"]
+            super().__init__((self.name(attributes), self.decode(attributes, data))
+                             for attributes, data in re.findall(r"<DataArray([^>]*)>\s*([^<\s]+)", text) if "binary" in attributes)
         except (OSError, KeyError, ValueError, IndexError, struct.error, zlib.error) as error:
             raise RunError(f"{path.name} cannot be drawn: {error}") from None
 
-    def __getitem__(self, name):
-        if name not in self.arrays:
-            raise RunError(f"{self.file} cannot be drawn: it has no array {name}")
-        return self.arrays[name]
+    def __missing__(self, name):
+        raise RunError(f"{self.file} cannot be drawn: it has no array {name}")
 
     @staticmethod
     def name(attributes):
@@ -185,29 +182,29 @@ def breaks(x):
     return np.flatnonzero((steps > 4 * beside) & (beside > 0)) + 1
 
 
+def left(way):
+    """What is turned by 90 degrees, counterclockwise: of vectors (..., 2)."""
+    return np.stack([-way[..., 1], way[..., 0]], axis=-1)
+
+
 def lengths(x):
     """Along the way from point to point of (n, 2), from the first one."""
     return np.append(0, np.hypot(*np.diff(x, axis=0).T).cumsum())
 
 
-class Line:
+class Line(dict):
     """The points of one contact in the plane in their order: `name`, `title`, columns (`line["normal_traction"]`), `x` (n, 2),
     `s` the arc length from its beginning [length], `starts` where its pieces begin."""
 
     def __init__(self, name, columns, s=None, starts=None, begin=None):
-        self.name, self.columns = name, columns
+        super().__init__(columns)
+        self.name = name
         self.x = np.stack([columns["x"], columns["y"]], axis=1)
         self.boundary = str(columns["boundary"][0])
         self.title = name if name == self.boundary else f"{name} ({self.boundary})"
         ahead = 0 if begin is None else math.hypot(*(self.x[0] - begin))
         self.s = s if s is not None else ahead + lengths(self.x)
         self.starts = breaks(self.x) if starts is None else starts
-
-    def __getitem__(self, name):
-        return self.columns[name]
-
-    def get(self, name):
-        return self.columns.get(name)
 
     @property
     def pressure(self):
@@ -382,9 +379,7 @@ class Run:
             firsts = np.append(0, vtu["offsets"][:-1])
             starts = [int(np.searchsorted(rows, vtu["connectivity"][k])) for k in firsts if vtu["connectivity"][k] in rows[1:]]
             line = Line(name, where(columns, rows), vtu["arc_length"][rows], np.array(starts, int))
-            line.columns["displacement"] = vtu["displacement"][rows, :2]
-            if "jump" in vtu.arrays:
-                line.columns["jump"] = vtu["jump"][rows, :2]
+            line.update((one, vtu[one][rows, :2]) for one in ("displacement", "jump") if one in vtu)
             found.append(line)
         return found
 

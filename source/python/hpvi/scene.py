@@ -9,7 +9,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Circle, Patch
 from matplotlib.textpath import text_to_path
 
-from .results import label, lengths, pretty
+from .results import label, left, lengths, pretty
 from .words import digits
 
 GROUND, LOAD, SUPPORT, CONTACT, PROBE, GREY = "#222222", "#b8500a", "#0072b2", "#00704f", "#8a2be2", "#666666"
@@ -20,11 +20,6 @@ FONT, LINE = 8.5, 10.5  # points
 def interpolated(s, places, values):
     """Values (n,) or vectors (n, 2) between places, at s."""
     return np.interp(s, places, values) if values.ndim == 1 else np.stack([np.interp(s, places, one) for one in values.T], axis=1)
-
-
-def left(way):
-    """What is turned by 90 degrees, counterclockwise: of vectors (..., 2)."""
-    return np.stack([-way[..., 1], way[..., 0]], axis=-1)
 
 
 class Part:
