@@ -21,6 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES, TABLES = ROOT / "prm/published", ROOT / "doc/benchmarks"
 sys.path += [str(ROOT / "doc"), str(TABLES)]
 import closed_forms  # noqa: E402
+import closed_values  # noqa: E402
 import receding_layer  # noqa: E402
 import published  # noqa: E402
 
@@ -47,6 +48,10 @@ class Table(unittest.TestCase):
             self.assertTrue(math.isfinite(row["value"]) and row["within"] >= 0, row["name"])
             self.assertTrue(row["kind"] != "closed form" or row["equation"], row["name"])
         json.dumps(table)
+
+    def test_values_are_those_of_their_formulae(self):
+        for name, wanted in closed_values.VALUES.items():
+            self.assertAlmostEqual(value(name) / wanted, 1, 13, name)
 
     def test_values_of_others_are_compared(self):
         found = benchmarks.compare({"hertz force": 7.7, "ssnv128 u1": 28.63, "hertz p0": (7.01, 0.02)})
@@ -83,27 +88,27 @@ class Formulae(unittest.TestCase):
         self.assertAlmostEqual(value("partial-slip friction"), friction, 7)
 
     def test_the_glued_punch_bears_its_load(self):
-        self.assertAlmostEqual(benchmarks.bonded_inner_force(0.3, 1 - 1e-12, 20000), 1, 5)
-        self.assertAlmostEqual(benchmarks.bonded_inner_force(0.4999999, 0.5), 2 * math.asin(0.5) / math.pi, 6)  # without friction at nu = 1/2
+        self.assertAlmostEqual(closed_values.bonded_inner_force(0.3, 1 - 1e-12, 20000), 1, 5)
+        self.assertAlmostEqual(closed_values.bonded_inner_force(0.4999999, 0.5), 2 * math.asin(0.5) / math.pi, 6)  # without friction at nu = 1/2
 
     def test_spheres_and_cylinders_as_printed(self):
-        pressure, radius, force = benchmarks.hertz_spheres(20000, 0.3, 50, 4)
+        pressure, radius, force = closed_values.hertz_spheres(20000, 0.3, 50, 4)
         self.assertAlmostEqual(pressure, 2798.33, 2)
         self.assertAlmostEqual(radius, 10, 12)
         self.assertAlmostEqual(force, 586080.6, 1)
         self.assertAlmostEqual(force, 2 * math.pi * radius ** 2 * pressure / 3, 6)
-        self.assertAlmostEqual(benchmarks.roller(210000, 70000, 0.3, 50, 35000)[1], 3585.37, 1)
-        for found, printed in zip(map(lambda f: benchmarks.wedge(0.1, f), (0, 0.1, 0.2, 0.3)), (0.1, 0.202020, 0.306122, 0.412371)):
+        self.assertAlmostEqual(closed_values.roller(210000, 70000, 0.3, 50, 35000)[1], 3585.37, 1)
+        for found, printed in zip(map(lambda f: closed_values.wedge(0.1, f), (0, 0.1, 0.2, 0.3)), (0.1, 0.202020, 0.306122, 0.412371)):
             self.assertAlmostEqual(found, printed, 6)
 
     def test_press_fits_by_two_equations(self):
         """u = A r + B/r: displacement and stress at both ends."""
         E, nu, a, b = 210000, 0.3, 20, 30
-        p = benchmarks.bush(E, nu, a, b, 0.03)
+        p = closed_values.bush(E, nu, a, b, 0.03)
         B_over_A = a * a * (1 + nu) / (1 - nu)
         A = -0.03 / (b + B_over_A / b)
         self.assertAlmostEqual(-p, E / (1 - nu * nu) * ((1 + nu) * A - (1 - nu) * A * B_over_A / b ** 2), 8)
-        p = benchmarks.cylinders(E, nu, 20, 40, 0.02)  # of the shaft and the hub
+        p = closed_values.cylinders(E, nu, 20, 40, 0.02)  # of the shaft and the hub
         plane = E / (1 - nu * nu), nu / (1 - nu)
         shaft = p * (1 - plane[1]) * 20 / plane[0]
         hub = p * 20 / plane[0] * ((40 ** 2 + 20 ** 2) / (40 ** 2 - 20 ** 2) + plane[1])
@@ -119,8 +124,8 @@ class Formulae(unittest.TestCase):
             self.assertAlmostEqual(kernel[0] / kernel[1] * (k[0] / k[1]) ** 3, 1, 5)
 
     def test_exponent_without_and_with_much_friction(self):
-        self.assertAlmostEqual(benchmarks.exponent_of_punch(0.3, 0), 0.5, 15)
-        s, beta = benchmarks.exponent_of_punch(0.3, 0.15), 0.4 / 1.4
+        self.assertAlmostEqual(closed_values.exponent_of_punch(0.3, 0), 0.5, 15)
+        s, beta = closed_values.exponent_of_punch(0.3, 0.15), 0.4 / 1.4
         self.assertAlmostEqual(math.tan(math.pi * s) * 0.15 * beta, 1, 12)
 
 
