@@ -115,12 +115,8 @@ def rate(n, eta):
 def corner_exponent(poisson):
     """Williams's exponent alpha of the displacement r^alpha in a right angle between a clamped and
     a free edge, in plane stress: 4 kappa sin^2(alpha pi/2) = (kappa + 1)^2 - 4 alpha^2."""
-    kappa = (3 - poisson) / (1 + poisson)
-    low, high = 0.1, 1.
-    for _ in range(60):
-        alpha = (low + high) / 2
-        low, high = (alpha, high) if 4 * kappa * math.sin(alpha * math.pi / 2) ** 2 < (kappa + 1) ** 2 - 4 * alpha * alpha else (low, alpha)
-    return alpha
+    kappa, alpha = (3 - poisson) / (1 + poisson), np.linspace(0.1, 1, 10 ** 6)
+    return alpha[np.argmin(4 * kappa * np.sin(alpha * math.pi / 2) ** 2 < (kappa + 1) ** 2 - 4 * alpha ** 2)]
 
 
 def rates_table(runs):

@@ -25,7 +25,7 @@ except ImportError:
 from . import results
 from .results import label, usual, von_mises
 from .scene import scene
-from .words import digits
+from .words import digits, one_digit
 
 STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
 BLUE, ORANGE, GREEN, BLACK, GREY = "#0072b2", "#d55e00", "#009e73", "#000000", "#777777"
@@ -104,8 +104,7 @@ def round_scale(displacement, x):
     size, largest = np.ptp(flat, axis=0).max(), np.linalg.norm(displacement, axis=-1).max()
     if largest == 0 or size <= 12 * largest:
         return 1.
-    digits = 10 ** np.floor(np.log10(size / (12 * largest)))
-    return max(1., digits * np.floor(size / (12 * largest) / digits))
+    return max(1., one_digit(size / (12 * largest)))
 
 
 def in_words(scale, end=""):
@@ -454,7 +453,8 @@ def cut(axes, line, curves, window, unit):
     for name, v in curves.items():
         for sign, end in ((1, high), (-1, low)):
             beyond = np.flatnonzero(inside & (sign * v > sign * end))
-            for group in groups(beyond, line.s, 0.1 * (window[1] - window[0])):
+            apart = np.flatnonzero(np.diff(line.s[beyond]) > 0.1 * (window[1] - window[0])) + 1
+            for group in np.split(beyond, apart) if len(beyond) else []:
                 worst = group[np.argmax(sign * v[group])]
                 is_right = line.s[worst] > sum(window) / 2
                 axes.plot([line.s[worst]], [end], marker="^" if sign > 0 else "v", color=ORANGE, clip_on=False, zorder=5, markersize=6, linestyle="none")
@@ -464,17 +464,6 @@ def cut(axes, line, curves, window, unit):
                               bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.3})
                 remarks.append(f"beyond the axis: {name} up to {digits(v[worst], 3)} {unit}".rstrip() + f" at ({line.x[worst][0]:.4g}, {line.x[worst][1]:.4g})")
     return remarks
-
-
-def groups(numbers, s, apart):
-    """Neighbours that are nearer than apart."""
-    found = []
-    for k in numbers:
-        if found and s[k] - s[found[-1][-1]] <= apart:
-            found[-1].append(k)
-        else:
-            found.append([k])
-    return [np.array(group) for group in found]
 
 
 def band(axes, line):

@@ -87,18 +87,14 @@ class Teller:
         self.run, self.summary = run, run.summary
         self.last = self.summary.get("final") or {}
         bound = self.summary.get("error_bound") or {}
-        self.number = words.Numbers(bound.get("relative") or self.last.get("estimate_relative"), self.size())
-        self.cells = self.no_cells = None
+        self.cells, self.extent, self.no_cells = None, np.zeros(1), ""
         try:
             self.cells = run.grid(plot.PER_CELL)
+            self.extent = np.ptp(self.cells["x"].reshape(-1, run.dimension), axis=0)
         except RunError as problem:
             self.no_cells = str(problem)
-
-    def size(self):
-        try:
-            return float(np.ptp(self.run.mesh.vertices, axis=0).max())
-        except RunError:
-            return 0.
+        self.size = float(self.extent.max())
+        self.number = words.Numbers(bound.get("relative") or self.last.get("estimate_relative"), self.size)
 
     # -------------------------------------------------------------- the first lines
 
@@ -107,19 +103,14 @@ class Teller:
         summary, status = self.summary, self.summary["status"]
         left = (f" What follows is what step {summary['steps']}, the last one that was finished, left: no result of this scene."
                 if summary["steps"] else " No step was finished: there is no result.")
-        if status == "failed":
-            return False, f"This run failed: {summary['message']}.{left}"
-        if status == "interrupted":
-            return False, f"This run was interrupted: {summary['message']}; hpvi --resume goes on with it.{left}"
         if status != "done":
-            return False, f"This run did not come to its end: it was killed, or the machine stopped; hpvi --resume goes on with it.{left}"
+            goes_on = "; hpvi --resume goes on with it"
+            why = {"failed": f"failed: {summary['message']}", "interrupted": f"was interrupted: {summary['message']}{goes_on}"}
+            return False, f"This run {why.get(status, f'did not come to its end: it was killed, or the machine stopped{goes_on}')}.{left}"
         by = summary["stopped_by"] or ""
-        if by == "Tolerance":
-            return True, "Done: the tolerance of the scene is met."
-        if by == "round-off":
-            return True, "Done: exact to round-off."
-        if by == "first step":
-            return True, "Done: solved once, as Loading/Adapt = first step says."
+        met = {"Tolerance": "the tolerance of the scene is met", "round-off": "exact to round-off", "first step": "solved once, as Loading/Adapt = first step says"}
+        if by in met:
+            return True, f"Done: {met[by]}."
         tolerance = self.run.entries.get("Adaptivity/Tolerance", "0")
         if tolerance not in ("", "0", "0.0"):
             return False, f"The tolerance {tolerance} is not met: stopped by {by or 'its limits'} of Adaptivity. What follows is the result of the last step."
@@ -195,9 +186,7 @@ class Teller:
         largest = max([abs(value) for value in force] + [self.largest_force()], default=0)
         parts = []
         for what, column in (("normal force", "normal"), ("friction", "friction")):
-            value = contact[f"{column}_resultant"]
-            half = float(row.get(f"{column}_bound", math.nan))
-            half = half if math.isfinite(half) else None
+            value, half = contact[f"{column}_resultant"], half_width(row.get(f"{column}_bound"))
             if isinstance(value, list):
                 parts.append(f"{what} {number.vector(value, run.force_unit, largest)}")
             elif value is not None:
@@ -231,8 +220,8 @@ class Teller:
         peaks, cells = stress.get("unbounded") or [], self.cells
         if not peaks:
             return self.number(stress["largest"], self.run.stress_unit) + self.at(stress)
-        known = (cells["x"].reshape(-1, self.run.dimension).T, von_mises(cells["stress"]).ravel()) if cells else ([], [])
-        return self.of_peaks("it", peaks, *known)
+        points = (cells["x"].reshape(-1, self.run.dimension).T, von_mises(cells["stress"]).ravel()) if cells else ([], [])
+        return self.of_peaks("it", peaks, *points)
 
     def of_peaks(self, name, peaks, x, values):
         """x: where values are known, an array for each coordinate."""
@@ -277,8 +266,7 @@ class Teller:
         """Of a picture of the body with its bar and words [inches]."""
         if self.cells is None or self.run.dimension == 3:
             return 4.
-        width, height = np.ptp(self.cells["x"].reshape(-1, 2), axis=0)
-        return float(min(4.8, 1.6 + 4 * height / width))
+        return float(min(4.8, 1.6 + 4 * self.extent[1] / self.extent[0]))
 
     def scene(self):
         if self.run.dimension == 3:
@@ -315,11 +303,10 @@ class Teller:
         run, charts = self.run, []
         charts += [picture(plot.loop, run, *where) for where in plot.loops(run)[:2]]
         if run.dimension == 2:
-            for line in run.lines[:2]:
-                for what in ("pressure", "friction"):
-                    column = "normal_traction" if what == "pressure" else "tangential_traction"
-                    if all(one[column].any() for one in run.lines_of(run.loading["step"][0]) or [line] if one.name == line.name) and line[column].any():
-                        charts.append(picture(plot.load_steps, run, line.name, what))
+            first = {line.name: line for line in run.lines_of(run.loading["step"][0])}
+            charts += [picture(plot.load_steps, run, line.name, what) for line in run.lines[:2]
+                       for what, column in (("pressure", "normal_traction"), ("friction", "tangential_traction"))
+                       if first.get(line.name, line)[column].any() and line[column].any()]
         if run.dimension == 2 and run.contact_history:
             for name, rows in list(results.contacts(run.contact_history).items())[:2]:
                 for columns, kind in (({"slip_path": "path", "slip_range": "range"}, "slip"), ({"wear_depth": "depth"}, "wear depth")):
@@ -336,15 +323,11 @@ class Teller:
         """A row for each boundary, part and pair; round-off is 0, for it is another on each machine."""
         forces, run = self.run.forces, self.run
         columns = [name for name in forces if f"{name}_bound" in forces]
-        size = {name: max([self.largest_force() * (self.size() if name.startswith("M") else 1)] + [np.nanmax(abs(forces[one])) for one in columns if one.startswith("M") == name.startswith("M") and np.isfinite(forces[one]).any()])
+        size = {name: max([self.largest_force() * (self.size if name.startswith("M") else 1)] + [np.nanmax(abs(forces[one])) for one in columns if one.startswith("M") == name.startswith("M") and np.isfinite(forces[one]).any()])
                 for name in columns}
-        rows = []
-        for k in range(len(forces.get("name", []))):
-            row = [str(forces["name"][k]), str(forces["kind"][k])]
-            for name in columns:
-                value, half = float(forces[name][k]), float(forces[f"{name}_bound"][k])
-                row.append("" if math.isnan(value) else self.number(value, half=half if math.isfinite(half) else None, largest=size[name]))
-            rows.append(row)
+        rows = [[str(forces["name"][k]), str(forces["kind"][k])]
+                + ["" if math.isnan(forces[name][k]) else self.number(float(forces[name][k]), half=half_width(forces[f"{name}_bound"][k]), largest=size[name]) for name in columns]
+                for k in range(len(forces.get("name", [])))]
         note = f"Forces{bracket(run.force_unit)} and moments{bracket(run.moment_unit)} on the body" + (f"; ±: intervals, {self.word()}." if "±" in str(rows) else ".")
         if self.summary.get("no_intervals"):
             note += f" Without an interval: {self.summary['no_intervals']}."
@@ -392,6 +375,11 @@ class Teller:
         """Of entries those that are not at their defaults, where that is known."""
         changed = (self.run.scene or {}).get("changed")
         return "\n".join(f"{path} = {value}" for path, value in self.run.entries.items() if changed is None or path in changed)
+
+
+def half_width(half):
+    """Of a table; None where there is none."""
+    return None if half is None or not math.isfinite(half) else float(half)
 
 
 def bracket(unit):

@@ -37,16 +37,12 @@ def table(text):
 
 
 def column(name, fields):
-    if name in WORDS:
-        return np.array(fields, str)
-    try:
-        return np.array([int(field) for field in fields], int)
-    except ValueError:
-        pass
-    try:
-        return np.array([float(field) if field else math.nan for field in fields])
-    except ValueError:
-        return np.array(fields, str)
+    for kind in () if name in WORDS else (int, float):
+        try:
+            return np.array([kind(field or "nan") for field in fields], kind)
+        except ValueError:  # it has others
+            continue
+    return np.array(fields, str)
 
 
 def where(columns, chosen):
@@ -267,8 +263,7 @@ class Run:
         self.steps = self.table("convergence.csv")
         if len(self.steps.get("step", [])) < self.n_steps:
             raise RunError(f"{self.directory}: convergence.csv has fewer steps than summary.json")
-        self.loading, self.cycles, self.degrees = (self.table(f"{name}.csv") for name in ("loading", "cycles", "degrees"))
-        self.contact_history = self.table("contact-history.csv")
+        self.loading, self.cycles, self.degrees, self.contact_history = (self.table(f"{name}.csv") for name in ("loading", "cycles", "degrees", "contact-history"))
         self.contact = self.contact_of(self.n_steps)
         forces = self.table("forces.csv")
         self.forces = where(forces, forces["step"] == self.n_steps) if forces else {}

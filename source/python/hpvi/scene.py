@@ -10,7 +10,7 @@ from matplotlib.patches import Circle, Patch
 from matplotlib.textpath import text_to_path
 
 from .results import label, left, lengths, pretty
-from .words import digits
+from .words import digits, one_digit
 
 GROUND, LOAD, SUPPORT, CONTACT, PROBE, GREY = "#222222", "#b8500a", "#0072b2", "#00704f", "#8a2be2", "#666666"
 MATERIALS = ("#e6edf5", "#f6d9a8", "#8fcbb0", "#dcc0ea", "#6f9bd1", "#e3da5c", "#a3a3a3", "#f0957f")  # whoever looks
@@ -182,9 +182,7 @@ def gap_scale(sheet, boundary):
     widest = max((abs(part.data["gap"]).max() for part in boundary["drawn"] if part.data["gap"] is not None), default=0) / sheet.u
     if widest == 0 or 2 <= widest <= 18:
         return 1.
-    wanted = 6 / widest if widest < 2 else 18 / widest
-    decade = 10. ** math.floor(math.log10(wanted))
-    return decade * math.floor(wanted / decade)
+    return one_digit((6 if widest < 2 else 18) / widest)
 
 
 def draw_contact(sheet, boundary, part, band):

@@ -20,6 +20,12 @@ def digits(value, n):
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
+def one_digit(value):
+    """Rounded down to one."""
+    unit = 10. ** math.floor(math.log10(value))
+    return unit * math.floor(value / unit)
+
+
 def interval(value, half):
     """As in "4.8137 ± 0.0004": the half width has two digits and is rounded up, the value ends where it does."""
     half = abs(half)  # of an energy it may be negative by round-off
@@ -75,10 +81,7 @@ class Numbers:
 
     def place(self, point):
         """As in "(1, 0)"."""
-        return "(" + ", ".join(self.coordinate(x) for x in point if x is not None) + ")"
-
-    def coordinate(self, x):
-        return digits(0 if abs(x) <= 1e-6 * self.size else x, 5)
+        return "(" + ", ".join(digits(0 if abs(x) <= 1e-6 * self.size else x, 5) for x in point if x is not None) + ")"
 
     def vector(self, values, unit="", largest=0):
         largest = max([largest, *(abs(value) for value in values if value is not None)])
