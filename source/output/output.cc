@@ -133,12 +133,15 @@ Output<dim>::Output(const Scene<dim> &scene, const std::string &path, const unsi
     : scene(scene), path(path), communicator(communicator), is_first(rank_of(communicator) == 0),
       n_processes(hpvi::n_processes(communicator))
 {
-  write_together(communicator,
-                 [&]()
-                 {
-                   if (is_first)
-                     open(path, n_steps);
-                 });
+  by_first([&]() { open(path, n_steps); });
+}
+
+/** All learn how it ends. */
+template <int dim>
+void Output<dim>::by_first(const std::function<void()> &work) const
+{
+  write_together(
+      communicator, is_first ? work : []() {});
 }
 
 template <int dim>
@@ -192,9 +195,7 @@ void Output<dim>::take_up(const unsigned int n_steps)
     directory->reject(error.what());
   }
   take_up_pictures(n_steps);
-  update("convergence.csv", tables.convergence);
-  update("degrees.csv", tables.degrees);
-  update("forces.csv", tables.forces);
+  update_tables();
   if (!tables.loading.text.empty())
     update("loading.csv", tables.loading);
 }
@@ -241,6 +242,14 @@ void Output<dim>::update(const std::string &name, const GrowingText &content)
   check(name, directory->update(name, content.text, content.same));
 }
 
+template <int dim>
+void Output<dim>::update_tables()
+{
+  update("convergence.csv", tables.convergence);
+  update("degrees.csv", tables.degrees);
+  update("forces.csv", tables.forces);
+}
+
 /** Pieces are written by processes that have no directory. */
 template <int dim>
 void Output<dim>::check(const std::string &name, const std::error_code &error) const
@@ -284,12 +293,7 @@ void Output<dim>::write_pieces(const StepReport<dim> &step)
   const std::string index = numbered("solution", step.number, ".pvtu");
   pictures.insert(pictures.end(), pieces.begin(), pieces.end());
   pictures.push_back(index); // last: it names no piece that is missing
-  write_together(communicator,
-                 [&]()
-                 {
-                   if (is_first)
-                     announce(pictures);
-                 });
+  by_first([&]() { announce(pictures); });
   const std::string &own = pieces[rank_of(communicator)];
   write_together(communicator,
                  [&]()
@@ -298,19 +302,13 @@ void Output<dim>::write_pieces(const StepReport<dim> &step)
                          write_whole(std::filesystem::path(path) / own, content.piece,
                                      ".hpvi." + std::to_string(rank_of(communicator)) + ".tmp"));
                  });
-  write_together(communicator,
-                 [&]()
-                 {
-                   if (is_first)
-                     write(index, content.index);
-                 });
+  by_first([&]() { write(index, content.index); });
 }
 
 template <int dim>
 void Output<dim>::write_pictures(const StepReport<dim> &step)
 {
-  const std::vector<std::pair<std::string, std::string>> files =
-      step_files(scene, step, n_processes);
+  const auto files = step_files(scene, step, n_processes);
   std::vector<std::string> names;
   for (const auto &file : files)
     names.push_back(file.first);
@@ -344,31 +342,27 @@ void Output<dim>::write_reference(const StepReport<dim> &step)
 {
   std::ostringstream file;
   write_solution(file, step.field, step.energies.energy);
-  write_together(communicator,
-                 [&]()
-                 {
-                   if (!is_first)
-                     return;
-                   announce({"reference.dat"});
-                   write("reference.dat", file.str());
-                 });
+  by_first(
+      [&]()
+      {
+        announce({"reference.dat"});
+        write("reference.dat", file.str());
+      });
 }
 
 /** What the load steps so far have done together: whole files, which each load step makes anew. */
 template <int dim>
 void Output<dim>::write_history(const StepReport<dim> &step)
 {
-  std::vector<std::pair<std::string, std::string>> files;
-  if (scene.output.contact && scene.has_contact())
-    files.emplace_back("contact-history.csv",
-                       csv(contact_history_rows(scene, step.history.contact)));
-  if (!step.history.cycles.empty())
-    files.emplace_back("cycles.csv", csv(cycle_rows(step.history.cycles)));
-  for (const auto &[name, content] : files)
+  const auto add = [&](const std::string &name, const std::vector<Record> &rows)
   {
     announce({name});
-    write(name, content);
-  }
+    write(name, csv(rows));
+  };
+  if (scene.output.contact && scene.has_contact())
+    add("contact-history.csv", contact_history_rows(scene, step.history.contact));
+  if (!step.history.cycles.empty())
+    add("cycles.csv", cycle_rows(step.history.cycles));
 }
 
 /** Last: the tables name no step whose files are missing. */
@@ -378,9 +372,7 @@ void Output<dim>::write_tables(const StepReport<dim> &step,
 {
   const bool is_last = !step.stopped_by.empty();
   tables.add(step);
-  update("convergence.csv", tables.convergence);
-  update("degrees.csv", tables.degrees);
-  update("forces.csv", tables.forces);
+  update_tables();
   if (scene.has_load_history() && is_last)
   {
     announce({"loading.csv"});
@@ -415,18 +407,16 @@ void Output<dim>::write_step(const StepReport<dim> &step, const LoadHistory<dim>
     write_pieces(step);
   if (scene.output.reference && !step.stopped_by.empty())
     write_reference(step);
-  write_together(communicator,
-                 [&]()
-                 {
-                   if (!is_first)
-                     return;
-                   announce({"convergence.csv", "degrees.csv", "forces.csv"});
-                   if (state)
-                     announce({"state.dat"});
-                   write_pictures(step);
-                   add_to_collections(step);
-                   write_tables(step, state);
-                 });
+  by_first(
+      [&]()
+      {
+        announce({"convergence.csv", "degrees.csv", "forces.csv"});
+        if (state)
+          announce({"state.dat"});
+        write_pictures(step);
+        add_to_collections(step);
+        write_tables(step, state);
+      });
 }
 
 template <int dim>
@@ -441,14 +431,12 @@ template <int dim>
 void Output<dim>::finish()
 {
   summary.status = RunStatus::done;
-  write_together(communicator,
-                 [&]()
-                 {
-                   if (!is_first)
-                     return;
-                   write_summary();
-                   write_state();
-                 });
+  by_first(
+      [&]()
+      {
+        write_summary();
+        write_state();
+      });
 }
 
 template <int dim>

@@ -8,6 +8,7 @@
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -114,6 +115,8 @@ private:
   void write(const std::string &name, const std::string &content) const;
   void update(const std::string &name, const GrowingText &content);
   void check(const std::string &name, const std::error_code &error) const;
+  void by_first(const std::function<void()> &work) const;
+  void update_tables();
   void write_summary() const;
   void write_state();
   void write_pieces(const StepReport<dim> &step);
