@@ -4,7 +4,6 @@
 #include <hpvi/base/tolerances.h>
 #include <hpvi/output/boundary_words.h>
 #include <hpvi/output/contact_report.h>
-#include <hpvi/output/record.h>
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +127,26 @@ std::string in_words(const std::string &name, const Scene<dim> &scene,
          with_unit(stress.beyond, scene.length_unit) + " from there";
 }
 
+/**
+ * A point of the line along which a force acts, `(x - c) x F = M` with the moment M about the centre c: where it meets the contact
+ * edge, or nearest to c where it is parallel to it. Null where there is no force beyond round-off beside @p scale [stress length].
+ */
+std::optional<Point<2>> line_of_action(const BoundaryForce<2> &boundary, const Point<2> &centre,
+                                       const ContactState<2> &contact, const double scale)
+{
+  const Tensor<1, 2> &F = boundary.force;
+  if (!(F.norm() > shown_as_zero * scale))
+    return std::nullopt;
+  const auto cross = [](const Tensor<1, 2> &a, const Tensor<1, 2> &b)
+  { return a[0] * b[1] - a[1] * b[0]; };
+  const Point<2> &begin = contact.begin;
+  const Tensor<1, 2> edge = contact.end - begin;
+  // (begin + s edge - c) x F = M
+  if (std::abs(cross(edge, F)) > 1e-6 * edge.norm() * F.norm())
+    return begin + (boundary.moment - cross(begin - centre, F)) / cross(edge, F) * edge;
+  return centre + boundary.moment / F.norm_square() * Tensor<1, 2>({F[1], -F[0]});
+}
+
 /** In the plane a force has a line; in space in general none, but a moment. */
 std::string acting(const BoundaryForce<2> &force, const Equilibrium<2> &equilibrium,
                    const ContactState<2> &state, const double scale)
@@ -147,15 +166,14 @@ std::string acting(const BoundaryForce<3> &force, const Equilibrium<3> &equilibr
 }
 
 template <int dim>
-std::string in_words(const Scene<dim> &scene, const ContactState<dim> &state,
-                     const Equilibrium<dim> &equilibrium,
-                     const std::vector<StressSingularity<dim>> &unbounded)
+std::string in_words(const ContactState<dim> &state, const StepReport<dim> &step)
 {
-  const BoundaryCondition<dim> &boundary = scene.boundaries[state.boundary];
-  const BoundaryForce<dim> &force = force_of(equilibrium, boundary.name);
-  const double scale = force_scale(equilibrium, state);
-  std::string words =
-      "\ncontact " + boundary.name + ": " + acting(force, equilibrium, state, scale);
+  const Scene<dim> &scene = step.scene;
+  const std::vector<StressSingularity<dim>> unbounded = on(state.slave, step.unbounded);
+  const std::string &name = scene.boundaries[state.boundary].name;
+  std::string words = "\ncontact " + name + ": " +
+                      acting(force_of(step.equilibrium, name), step.equilibrium, state,
+                             force_scale(step.equilibrium, state));
   for (const StressSingularity<dim> &stress : unbounded)
     words += "\n  " + in_words("pressure", scene, stress);
   if (state.highest_pressure > 0 && unbounded.empty())
@@ -227,18 +245,40 @@ std::pair<std::string, std::string> json_acting(const BoundaryForce<3> &force,
 }
 
 template <int dim>
-std::string json(const ContactState<dim> &state, const BoundaryForce<dim> &force,
-                 const Equilibrium<dim> &equilibrium,
-                 const std::vector<StressSingularity<dim>> &unbounded)
+std::string json(const BoundaryForce<dim> &force)
 {
+  return json_members(
+      {{"force", json_point<dim>(force.force)}, {"moment", json_value(force.moment)}});
+}
+
+template <int dim>
+std::string balance_json(const Equilibrium<dim> &equilibrium)
+{
+  JsonMembers members{{"force", json_value(equilibrium.force_imbalance)},
+                      {"moment", json_value(equilibrium.moment_imbalance)},
+                      {"moments_about", json_point<dim>(equilibrium.centre)}},
+      bodies;
+  for (const auto &[name, force, moment] : equilibrium.bodies)
+    bodies.emplace_back(
+        name, json_members({{"force", json_value(force)}, {"moment", json_value(moment)}}));
+  if (!bodies.empty())
+    members.emplace_back("bodies", json_members(bodies, 6));
+  return json_members(members, 4);
+}
+
+template <int dim>
+std::string json(const ContactState<dim> &state, const StepReport<dim> &step)
+{
+  const BoundaryForce<dim> &force =
+      force_of(step.equilibrium, step.scene.boundaries[state.boundary].name);
   JsonMembers members{
       {"force", json_point<dim>(force.force)},
-      json_acting(force, equilibrium, state),
+      json_acting(force, step.equilibrium, state),
       {"normal_resultant", json_value(state.normal_resultant)},
       {"friction_resultant", json_value(state.friction_resultant)},
       {"largest_pressure", json_value(state.highest_pressure)},
       {"largest_pressure_at", json_place(state.highest_pressure, state.highest_pressure_point)},
-      {"unbounded_pressure", json(unbounded)},
+      {"unbounded_pressure", json(on(state.slave, step.unbounded))},
       {"largest_penetration", json_value(state.deepest_penetration)},
       {"largest_penetration_at",
        json_place(state.deepest_penetration, state.deepest_penetration_point)}};
@@ -287,38 +327,19 @@ std::string json_point(const Tensor<1, dim> &x)
 }
 
 template <int dim>
-std::optional<Point<dim>> line_of_action(const BoundaryForce<dim> &boundary,
-                                         const Point<dim> &centre, const ContactState<dim> &contact,
-                                         const double scale)
+std::string contact_in_words(const StepReport<dim> &step)
 {
-  static_assert(dim == 2, "a moment is a number");
-  const Tensor<1, dim> &F = boundary.force;
-  if (!(F.norm() > shown_as_zero * scale))
-    return std::nullopt;
-  const auto cross = [](const Tensor<1, dim> &a, const Tensor<1, dim> &b)
-  { return a[0] * b[1] - a[1] * b[0]; };
-  const Point<dim> &begin = contact.begin;
-  const Tensor<1, dim> edge = contact.end - begin;
-  // (begin + s edge - c) x F = M
-  if (std::abs(cross(edge, F)) > 1e-6 * edge.norm() * F.norm())
-    return begin + (boundary.moment - cross(begin - centre, F)) / cross(edge, F) * edge;
-  return centre + boundary.moment / F.norm_square() * Tensor<1, dim>({F[1], -F[0]});
-}
-
-template <int dim>
-std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                             const Equilibrium<dim> &equilibrium,
-                             const std::vector<StressSingularity<dim>> &unbounded)
-{
+  const Scene<dim> &scene = step.scene;
+  const Equilibrium<dim> &equilibrium = step.equilibrium;
   std::string words;
-  for (const ContactState<dim> &state : contact)
-    words += in_words(scene, state, equilibrium, on(state.slave, unbounded));
+  for (const ContactState<dim> &state : step.contact)
+    words += in_words(state, step);
   double scale = largest_force(equilibrium);
-  for (const ContactState<dim> &state : contact)
+  for (const ContactState<dim> &state : step.contact)
     scale = std::max(scale, force_scale(equilibrium, state));
   std::string separator = "\n";
   for (const BoundaryForce<dim> &reaction : equilibrium.reactions)
-    if (std::none_of(contact.begin(), contact.end(),
+    if (std::none_of(step.contact.begin(), step.contact.end(),
                      [&](const ContactState<dim> &state)
                      { return scene.boundaries[state.boundary].name == reaction.boundary; }))
       words += std::exchange(separator, "") + kind_of_support(scene, reaction.boundary) + ": " +
@@ -326,77 +347,45 @@ std::string contact_in_words(const Scene<dim> &scene, const std::vector<ContactS
                                          : "force " + point_text(clean(reaction.force, scale)) +
                                                ", " + moment_text(reaction, equilibrium)) +
                plate_in_words(scene, reaction.boundary, equilibrium) + "\n";
-  for (const StressSingularity<dim> &stress : on(numbers::invalid_boundary_id, unbounded))
+  for (const StressSingularity<dim> &stress : on(numbers::invalid_boundary_id, step.unbounded))
     words += "\n" + in_words("von Mises' stress", scene, stress) + "\n";
   return words;
 }
 
 template <int dim>
-std::string contact_json(const Scene<dim> &scene, const std::vector<ContactState<dim>> &contact,
-                         const Equilibrium<dim> &equilibrium,
-                         const std::vector<StressSingularity<dim>> &unbounded)
+const StressSample<dim> &largest_von_mises(const StepReport<dim> &step)
 {
-  JsonMembers members;
-  for (const ContactState<dim> &state : contact)
-  {
-    const std::string &name = scene.boundaries[state.boundary].name;
-    members.emplace_back(
-        name, json(state, force_of(equilibrium, name), equilibrium, on(state.slave, unbounded)));
-  }
-  return json_members(members, 4);
+  return *std::find_if(step.extrema.begin(), step.extrema.end(),
+                       [](const auto &peak)
+                       { return peak.boundary == numbers::invalid_boundary_id; });
 }
 
 template <int dim>
-std::string von_mises_json(const std::vector<StressSample<dim>> &extrema,
-                           const std::vector<StressSingularity<dim>> &unbounded)
+JsonMembers contact_members(const StepReport<dim> &step)
 {
-  const auto largest =
-      std::find_if(extrema.begin(), extrema.end(),
-                   [](const auto &peak) { return peak.boundary == numbers::invalid_boundary_id; });
-  return json_members({{"largest", json_value(largest->value)},
-                       {"at", json_point<dim>(largest->where)},
-                       {"unbounded", json(on(numbers::invalid_boundary_id, unbounded))}},
-                      4);
-}
-
-template <int dim>
-std::string plates_json(const Scene<dim> &scene, const Equilibrium<dim> &equilibrium)
-{
-  JsonMembers members;
+  const Equilibrium<dim> &equilibrium = step.equilibrium;
+  const std::vector<BoundaryCondition<dim>> &boundaries = step.scene.boundaries;
+  const StressSample<dim> &largest = largest_von_mises(step);
+  JsonMembers forces{{equilibrium.loads.boundary, json(equilibrium.loads)}}, contact, plates;
+  for (const BoundaryForce<dim> &force : equilibrium.reactions)
+    forces.emplace_back(force.boundary, json(force));
+  for (const ContactState<dim> &state : step.contact)
+    contact.emplace_back(boundaries[state.boundary].name, json(state, step));
   for (const PlateState<dim> &plate : equilibrium.plates)
-    members.emplace_back(scene.boundaries[plate.boundary].name,
-                         json_members({{"mean_point", json_point<dim>(plate.centre)},
-                                       {"displacement", json_point<dim>(plate.displacement)},
-                                       {"rotation", json_value(plate.rotation)},
-                                       {"moment", json_value(plate.moment)}}));
-  return json_members(members, 4);
-}
-
-template <int dim>
-std::string forces_json(const Equilibrium<dim> &equilibrium)
-{
-  std::vector<BoundaryForce<dim>> forces = equilibrium.reactions;
-  forces.insert(forces.begin(), equilibrium.loads);
-  JsonMembers members;
-  for (const BoundaryForce<dim> &force : forces)
-    members.emplace_back(force.boundary, json_members({{"force", json_point<dim>(force.force)},
-                                                       {"moment", json_value(force.moment)}}));
-  return json_members(members, 4);
-}
-
-template <int dim>
-std::string balance_json(const Equilibrium<dim> &equilibrium)
-{
-  JsonMembers members{{"force", json_value(equilibrium.force_imbalance)},
-                      {"moment", json_value(equilibrium.moment_imbalance)},
-                      {"moments_about", json_point<dim>(equilibrium.centre)}},
-      bodies;
-  for (const auto &[name, force, moment] : equilibrium.bodies)
-    bodies.emplace_back(
-        name, json_members({{"force", json_value(force)}, {"moment", json_value(moment)}}));
-  if (!bodies.empty())
-    members.emplace_back("bodies", json_members(bodies, 6));
-  return json_members(members, 4);
+    plates.emplace_back(boundaries[plate.boundary].name,
+                        json_members({{"mean_point", json_point<dim>(plate.centre)},
+                                      {"displacement", json_point<dim>(plate.displacement)},
+                                      {"rotation", json_value(plate.rotation)},
+                                      {"moment", json_value(plate.moment)}}));
+  return {{"forces", json_members(forces, 4)},
+          {"balance", balance_json(equilibrium)},
+          {"contact", json_members(contact, 4)},
+          {"von_mises",
+           json_members({{"largest", json_value(largest.value)},
+                         {"at", json_point<dim>(largest.where)},
+                         {"unbounded", json(on(numbers::invalid_boundary_id, step.unbounded))}},
+                        4)},
+          {"plates", json_members(plates, 4)}};
 }
 
 std::string loads_in_words(const Scene<2> &scene)
@@ -428,28 +417,10 @@ std::string loads_json(const std::optional<LoadSum> &loads)
 
 template std::string json_point(const Tensor<1, 2> &);
 template std::string json_point(const Tensor<1, 3> &);
-template std::string plates_json(const Scene<2> &, const Equilibrium<2> &);
-template std::string plates_json(const Scene<3> &, const Equilibrium<3> &);
-template std::string forces_json(const Equilibrium<2> &);
-template std::string balance_json(const Equilibrium<2> &);
-template std::string forces_json(const Equilibrium<3> &);
-template std::string balance_json(const Equilibrium<3> &);
-template std::optional<Point<2>> line_of_action(const BoundaryForce<2> &, const Point<2> &,
-                                                const ContactState<2> &, double);
-template std::string contact_in_words(const Scene<2> &, const std::vector<ContactState<2>> &,
-                                      const Equilibrium<2> &,
-                                      const std::vector<StressSingularity<2>> &);
-template std::string contact_json(const Scene<2> &, const std::vector<ContactState<2>> &,
-                                  const Equilibrium<2> &,
-                                  const std::vector<StressSingularity<2>> &);
-template std::string contact_in_words(const Scene<3> &, const std::vector<ContactState<3>> &,
-                                      const Equilibrium<3> &,
-                                      const std::vector<StressSingularity<3>> &);
-template std::string contact_json(const Scene<3> &, const std::vector<ContactState<3>> &,
-                                  const Equilibrium<3> &,
-                                  const std::vector<StressSingularity<3>> &);
-template std::string von_mises_json(const std::vector<StressSample<2>> &,
-                                    const std::vector<StressSingularity<2>> &);
-template std::string von_mises_json(const std::vector<StressSample<3>> &,
-                                    const std::vector<StressSingularity<3>> &);
+template const StressSample<2> &largest_von_mises(const StepReport<2> &);
+template const StressSample<3> &largest_von_mises(const StepReport<3> &);
+template std::string contact_in_words(const StepReport<2> &);
+template std::string contact_in_words(const StepReport<3> &);
+template JsonMembers contact_members(const StepReport<2> &);
+template JsonMembers contact_members(const StepReport<3> &);
 } // namespace hpvi

@@ -126,14 +126,6 @@ std::string probe_in_words(const ProbeValue<dim> &value, const StepReport<dim> &
 }
 
 template <int dim>
-const StressSample<dim> &largest_von_mises(const StepReport<dim> &step)
-{
-  return *std::find_if(step.extrema.begin(), step.extrema.end(),
-                       [](const auto &peak)
-                       { return peak.boundary == numbers::invalid_boundary_id; });
-}
-
-template <int dim>
 std::string extremes_in_words(const StepReport<dim> &step)
 {
   const Scene<dim> &scene = step.scene;
@@ -152,10 +144,7 @@ std::string extremes_in_words(const StepReport<dim> &step)
   }
   return words;
 }
-} // namespace
 
-namespace
-{
 /** What is known of the error under Coulomb's law. */
 template <int dim>
 std::string bound_of_coulomb(const StepReport<dim> &step)
@@ -182,17 +171,6 @@ std::string results_in_words(const StepReport<dim> &step)
   return words + extremes_in_words(step);
 }
 
-template <int dim>
-std::string largest_displacement_json(const StepReport<dim> &step)
-{
-  const PlacedValue<dim> &largest = step.largest_displacement;
-  return json_members({{"value", json_value(largest.value)},
-                       {"at", largest.value > 0 ? json_point<dim>(largest.where) : "null"}},
-                      4);
-}
-
 template std::string results_in_words(const StepReport<2> &);
 template std::string results_in_words(const StepReport<3> &);
-template std::string largest_displacement_json(const StepReport<2> &);
-template std::string largest_displacement_json(const StepReport<3> &);
 } // namespace hpvi

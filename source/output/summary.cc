@@ -6,7 +6,6 @@
 #include <hpvi/output/contact_report.h>
 #include <hpvi/output/json_tree.h>
 #include <hpvi/output/pretension_report.h>
-#include <hpvi/output/results_report.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
 #include <hpvi/reader/input/parameters.h>
@@ -97,6 +96,11 @@ std::string bound_json(const Record &row)
        {"energy", is_of_energy ? json_list({field("energy_low"), field("energy_high")}) : "null"}},
       4);
 }
+
+JsonTree summary_in(const std::filesystem::path &directory)
+{
+  return json_tree(content_of(directory / "summary.json")).value_or(JsonTree());
+}
 } // namespace
 
 std::string text(const RunStatus status)
@@ -153,27 +157,27 @@ void Summary::add(const StepReport<dim> &step, const Record &row)
   if constexpr (dim == 2)
     if (step.reduced)
       loads = step.solution().spaces->loads->sum().times(step.scene.thickness);
-  ending = {};
+  ending.clear();
   if (stopped_by.empty())
     return;
   load = step.load;
+  const PlacedValue<dim> &largest = step.largest_displacement;
+  ending = contact_members(step);
+  ending.insert(
+      ending.end(),
+      {{"error_bound", bound_json(row)},
+       {"no_error_bound", json_value(step.bound ? "" : step.no_bound)},
+       {"error_estimate_equilibrated", estimate_json(row)},
+       {"coupling", json_value(Value(step.equilibrated.coupling))},
+       {"zones_assumed", json_value(step.equilibrated.zones)},
+       {"largest_displacement",
+        json_members({{"value", json_value(largest.value)},
+                      {"at", largest.value > 0 ? json_point<dim>(largest.where) : "null"}},
+                     4)},
+       {"no_intervals", json_value(step.no_intervals)},
+       {"pretensions", pretensions_json(step)}});
   if (load.number > 0)
-    ending.history_largest = history_json(step.scene, step.history);
-  ending.error_bound = bound_json(row);
-  ending.no_error_bound = json_value(step.bound ? "" : step.no_bound);
-  ending.estimate = estimate_json(row);
-  ending.coupling = json_value(Value(step.equilibrated.coupling));
-  ending.zones = json_value(step.equilibrated.zones);
-  ending.forces = forces_json(step.equilibrium);
-  if (step.scene.has_plates())
-    ending.plates = plates_json(step.scene, step.equilibrium);
-  if (!step.scene.pretensions.empty())
-    ending.pretensions = pretensions_json(step);
-  ending.balance = balance_json(step.equilibrium);
-  ending.contact = contact_json(step.scene, step.contact, step.equilibrium, step.unbounded);
-  ending.largest_displacement = largest_displacement_json(step);
-  ending.no_intervals = json_value(step.no_intervals);
-  ending.von_mises = von_mises_json(step.extrema, step.unbounded);
+    ending.emplace_back("history_largest", history_json(step.scene, step.history));
 }
 
 template <int dim>
@@ -184,6 +188,13 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
           ? normal_contact_names[static_cast<unsigned int>(scene.normal_contact())]
           : "";
   const bool began_elsewhere = !scene_file.empty();
+  const auto of_ending = [&](const std::string &name)
+  {
+    for (const auto &member : ending)
+      if (member.first == name)
+        return member;
+    return std::pair(name, std::string("null"));
+  };
   Record seconds = stage_record(times);
   JsonMembers entries{
       {"status", json_string(text(status))},
@@ -208,40 +219,32 @@ std::string Summary::json(const Scene<dim> &scene, const std::vector<std::string
       {"steps", text(steps)},
       {"final", steps == 0 ? "null" : json_object(last_row)},
       {"loading", loading_json(load, scene.loading.steps)},
-      {"error_bound", ending.error_bound},
-      {"no_error_bound", ending.no_error_bound},
+      of_ending("error_bound"),
+      of_ending("no_error_bound"),
       {"last_error_bound", last_error_bound},
-      {"error_estimate_equilibrated", ending.estimate},
-      {"coupling", ending.coupling},
-      {"zones_assumed", ending.zones},
-      {"forces", ending.forces},
-      {"balance", ending.balance},
-      {"contact", ending.contact},
-      {"von_mises", ending.von_mises},
-      {"largest_displacement", ending.largest_displacement},
-      {"no_intervals", ending.no_intervals},
+      of_ending("error_estimate_equilibrated"),
+      of_ending("coupling"),
+      of_ending("zones_assumed"),
+      of_ending("forces"),
+      of_ending("balance"),
+      of_ending("contact"),
+      of_ending("von_mises"),
+      of_ending("largest_displacement"),
+      of_ending("no_intervals"),
       {"seconds", json_object(seconds)},
       {"warnings", json_strings(warnings, 4)},
       {"input_files", json_strings(input_files, 4)},
       {"files", json_strings(files, 4)}};
   if (scene.has_plates())
-    entries.emplace_back("plates", ending.plates);
+    entries.push_back(of_ending("plates"));
   if (!scene.pretensions.empty())
-    entries.emplace_back("pretensions", ending.pretensions);
+    entries.push_back(of_ending("pretensions"));
   if (scene.has_load_history())
-    entries.emplace_back("history_largest", ending.history_largest);
+    entries.push_back(of_ending("history_largest"));
   if (!contradiction.empty())
     entries.emplace_back("contradiction", json_string(contradiction));
   return json_file(entries);
 }
-
-namespace
-{
-JsonTree summary_in(const std::filesystem::path &directory)
-{
-  return json_tree(content_of(directory / "summary.json")).value_or(JsonTree());
-}
-} // namespace
 
 bool is_complete_run(const std::filesystem::path &directory)
 {

@@ -213,9 +213,9 @@ void Ending::hear(const StepReport<dim> &step)
   if (!step.contradiction.empty())
     last_bound.clear();
   if (!step.stopped_by.empty())
-    words = contact_in_words(step.scene, step.contact, step.equilibrium, step.unbounded) +
-            results_in_words(step) + balance_in_words(step) + upper_end_in_words(step) +
-            missing_bound_in_words(step, last_bound) + work_in_words(step.load);
+    words = contact_in_words(step) + results_in_words(step) + balance_in_words(step) +
+            upper_end_in_words(step) + missing_bound_in_words(step, last_bound) +
+            work_in_words(step.load);
 }
 
 /** A signal reaches processes at different times: they stop where the first one has noticed. */

@@ -20,10 +20,6 @@ std::string interval_in_words(const Interval &interval);
  */
 template <int dim>
 std::string results_in_words(const StepReport<dim> &step);
-
-/** |u_N| where it is largest, an object of JSON. */
-template <int dim>
-std::string largest_displacement_json(const StepReport<dim> &step);
 } // namespace hpvi
 
 #endif

@@ -49,18 +49,8 @@ struct Summary
   LoadStep load;                                        ///< the last one that is done, of a history
   std::optional<LoadSum> loads;                         ///< of the last step, in the plane
 
-  /** As JSON, of the last step, where stopped_by names what ended the run: */
-  struct Ending
-  {
-    std::string error_bound = "null", no_error_bound = "null";        ///< or the reason
-    std::string estimate = "null", coupling = "null", zones = "null"; ///< StepReport::Equilibrated
-    std::string forces = "null", balance = "null", contact = "null", von_mises = "null",
-                plates = "null", largest_displacement = "null",
-                no_intervals = "null", ///< or why forces and probes have none
-        history_largest = "null",      ///< of a load history
-        pretensions = "null";          ///< of a scene that has any
-  };
-  Ending ending;
+  /** Of the last step, where stopped_by names what ended the run; what there is not is null. */
+  JsonMembers ending;
 
   /** Begin with steps of convergence.csv that are finished, and the last row of loading.csv. */
   void take_up(const std::vector<Record> &rows, const Record &last_load);
