@@ -14,6 +14,39 @@ using namespace dealii;
 namespace
 {
 constexpr const char *coordinates[] = {"x", "y", "z"};
+
+/** 1 over a unit. */
+std::string per(const std::string &unit)
+{
+  const std::string name = unit_name(unit);
+  return name.empty() ? "" : name.find('/') == std::string::npos ? "1/" + name : "1/(" + name + ")";
+}
+
+/** As in "N" of N/mm^2 and mm, or of MPa and mm; empty where the product has no name of its own. */
+std::string short_name(const std::string &stress, const std::string &length)
+{
+  for (const std::string &square : {length + "^2", length + "2", length + "²"})
+    if (const std::size_t n = square.size() + 1;
+        stress.size() > n && stress.substr(stress.size() - n) == "/" + square)
+      return stress.substr(0, stress.size() - n);
+  struct Name
+  {
+    const char *stress, *length, *force;
+  };
+  for (const Name &name : {Name{"Pa", "m", "N"}, Name{"kPa", "m", "kN"}, Name{"MPa", "m", "MN"},
+                           Name{"GPa", "m", "GN"}, Name{"MPa", "mm", "N"}, Name{"GPa", "mm", "kN"}})
+    if (stress == name.stress && length == name.length)
+      return name.force;
+  return {};
+}
+
+std::string unit_of_load(const std::string &stress, const std::string &length, const bool is_moment)
+{
+  const std::string s = unit_name(stress), l = unit_name(length), name = short_name(s, l);
+  if (s.empty() || l.empty())
+    return {};
+  return name.empty() ? s + " " + l + (is_moment ? "^3" : "^2") : name + (is_moment ? " " + l : "");
+}
 } // namespace
 
 /** A label that says something: units of 1 are none. */
@@ -45,16 +78,6 @@ bool all_zero(const std::vector<double> &values)
   return std::all_of(values.begin(), values.end(), [](const double value) { return value == 0; });
 }
 
-namespace
-{
-/** 1 over a unit. */
-std::string per(const std::string &unit)
-{
-  const std::string name = unit_name(unit);
-  return name.empty() ? "" : name.find('/') == std::string::npos ? "1/" + name : "1/(" + name + ")";
-}
-} // namespace
-
 std::string with_unit(const double value, const std::string &unit, const int digits)
 {
   const std::string name = unit_name(unit);
@@ -72,6 +95,14 @@ std::string range_in_words(const std::vector<double> &values, const std::string 
   return text(clean(*least), digits) + " to " + with_unit(clean(*largest), unit, digits);
 }
 
+std::string force_unit(const std::string &stress, const std::string &length)
+{
+  return unit_of_load(stress, length, false);
+}
+
+namespace
+{
+/** Points on the faces of @p boundary on @p mesh at which ranges are taken, vertices among them. */
 template <int dim>
 std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::boundary_id boundary)
 {
@@ -98,47 +129,6 @@ std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::b
   return points;
 }
 
-namespace
-{
-/** As in "N" of N/mm^2 and mm, or of MPa and mm; empty where the product has no name of its own. */
-std::string short_name(const std::string &stress, const std::string &length)
-{
-  for (const std::string &square : {length + "^2", length + "2", length + "²"})
-    if (const std::size_t n = square.size() + 1;
-        stress.size() > n && stress.substr(stress.size() - n) == "/" + square)
-      return stress.substr(0, stress.size() - n);
-  struct Name
-  {
-    const char *stress, *length, *force;
-  };
-  for (const Name &name : {Name{"Pa", "m", "N"}, Name{"kPa", "m", "kN"}, Name{"MPa", "m", "MN"},
-                           Name{"GPa", "m", "GN"}, Name{"MPa", "mm", "N"}, Name{"GPa", "mm", "kN"}})
-    if (stress == name.stress && length == name.length)
-      return name.force;
-  return {};
-}
-
-std::string unit_of_load(const std::string &stress, const std::string &length, const bool is_moment)
-{
-  const std::string s = unit_name(stress), l = unit_name(length), name = short_name(s, l);
-  if (s.empty() || l.empty())
-    return {};
-  return name.empty() ? s + " " + l + (is_moment ? "^3" : "^2") : name + (is_moment ? " " + l : "");
-}
-} // namespace
-
-std::string force_unit(const std::string &stress, const std::string &length)
-{
-  return unit_of_load(stress, length, false);
-}
-
-std::string moment_unit(const std::string &stress, const std::string &length)
-{
-  return unit_of_load(stress, length, true);
-}
-
-namespace
-{
 /** As in "rigid plate, uy = -0.01 mm, Fx = 5 N, rotation free". */
 template <int dim>
 void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
@@ -156,24 +146,19 @@ void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
       phrases.push_back(names(m)[0] + " = " +
                         with_unit(*plate.displacement[m], m < dim ? scene.length_unit : "rad"));
     else if (plate.force[m] != 0)
-      phrases.push_back(
-          names(m)[1] + " = " +
-          with_unit(scene.thickness * plate.force[m],
-                    (m < dim ? force_unit : moment_unit)(scene.stress_unit, scene.length_unit)));
+      phrases.push_back(names(m)[1] + " = " +
+                        with_unit(scene.thickness * plate.force[m],
+                                  unit_of_load(scene.stress_unit, scene.length_unit, m == dim)));
     else
       phrases.push_back(names(m)[0] + " free");
 }
-} // namespace
 
-namespace
-{
 /** Around which the body turns. */
 template <int dim>
 bool is_axis(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
 {
   return scene.is_axisymmetric() && lies_on_axis(sides_of(scene)[boundary.id]);
 }
-} // namespace
 
 template <int dim>
 std::vector<std::string> support_phrases(const Scene<dim> &scene,
@@ -213,26 +198,6 @@ std::vector<std::string> support_phrases(const Scene<dim> &scene,
   return is_clamp && !boundary.spring ? std::vector<std::string>{"clamped"} : phrases;
 }
 
-template <int dim>
-std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary)
-{
-  const auto found =
-      std::find_if(scene.boundaries.begin(), scene.boundaries.end(),
-                   [&](const BoundaryCondition<dim> &one) { return one.name == boundary; });
-  if (std::any_of(found, scene.boundaries.end(),
-                  [&](const BoundaryCondition<dim> &one)
-                  { return one.pair && one.name == boundary; }))
-    return "contact " + boundary;
-  const std::string kind = found->plate                                  ? "plate "
-                           : is_axis(scene, *found)                      ? "axis "
-                           : found->symmetry                             ? "symmetry "
-                           : found->spring && !found->has_displacement() ? "spring "
-                                                                         : "support ";
-  return kind + boundary;
-}
-
-namespace
-{
 /** As in "friction bound 4.5 MPa"; of a law with both "friction at most 0.3 times the pressure and 2 MPa". */
 template <int dim>
 std::string friction_in_words(const Scene<dim> &scene, const FrictionLaw<dim> &friction,
@@ -276,7 +241,6 @@ std::string gap_in_words(const Scene<dim> &scene, const BoundaryCondition<dim> &
   return "gap " + range_in_words(gaps, scene.length_unit) +
          (has_interference ? " (interference)" : "");
 }
-} // namespace
 
 template <int dim>
 std::vector<std::string> contact_phrases(const Scene<dim> &scene,
@@ -325,23 +289,45 @@ std::vector<std::string> traction_phrases(const Scene<dim> &scene,
   }
   return phrases;
 }
+} // namespace
+
+template <int dim>
+std::optional<BoundaryPhrases> phrases_of(const Scene<dim> &scene,
+                                          const BoundaryCondition<dim> &boundary,
+                                          const Triangulation<dim> &mesh)
+{
+  const std::vector<Point<dim>> points = points_on(mesh, boundary.id);
+  if (points.empty())
+    return std::nullopt;
+  return BoundaryPhrases{support_phrases(scene, boundary, points),
+                         contact_phrases(scene, boundary, points),
+                         traction_phrases(scene, boundary, points)};
+}
+
+template <int dim>
+std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary)
+{
+  const auto found =
+      std::find_if(scene.boundaries.begin(), scene.boundaries.end(),
+                   [&](const BoundaryCondition<dim> &one) { return one.name == boundary; });
+  if (std::any_of(found, scene.boundaries.end(),
+                  [&](const BoundaryCondition<dim> &one)
+                  { return one.pair && one.name == boundary; }))
+    return "contact " + boundary;
+  const std::string kind = found->plate                                  ? "plate "
+                           : is_axis(scene, *found)                      ? "axis "
+                           : found->symmetry                             ? "symmetry "
+                           : found->spring && !found->has_displacement() ? "spring "
+                                                                         : "support ";
+  return kind + boundary;
+}
 
 template std::vector<double> values_at(const std::vector<Point<2>> &, const Expression<2> &);
-template std::vector<Point<2>> points_on(const Triangulation<2> &, types::boundary_id);
-template std::vector<std::string> support_phrases(const Scene<2> &, const BoundaryCondition<2> &,
-                                                  const std::vector<Point<2>> &);
+template std::vector<double> values_at(const std::vector<Point<3>> &, const Expression<3> &);
+template std::optional<BoundaryPhrases> phrases_of(const Scene<2> &, const BoundaryCondition<2> &,
+                                                   const Triangulation<2> &);
+template std::optional<BoundaryPhrases> phrases_of(const Scene<3> &, const BoundaryCondition<3> &,
+                                                   const Triangulation<3> &);
 template std::string kind_of_support(const Scene<2> &, const std::string &);
 template std::string kind_of_support(const Scene<3> &, const std::string &);
-template std::vector<std::string> contact_phrases(const Scene<2> &, const BoundaryCondition<2> &,
-                                                  const std::vector<Point<2>> &);
-template std::vector<std::string> traction_phrases(const Scene<2> &, const BoundaryCondition<2> &,
-                                                   const std::vector<Point<2>> &);
-template std::vector<double> values_at(const std::vector<Point<3>> &, const Expression<3> &);
-template std::vector<Point<3>> points_on(const Triangulation<3> &, types::boundary_id);
-template std::vector<std::string> support_phrases(const Scene<3> &, const BoundaryCondition<3> &,
-                                                  const std::vector<Point<3>> &);
-template std::vector<std::string> contact_phrases(const Scene<3> &, const BoundaryCondition<3> &,
-                                                  const std::vector<Point<3>> &);
-template std::vector<std::string> traction_phrases(const Scene<3> &, const BoundaryCondition<3> &,
-                                                   const std::vector<Point<3>> &);
 } // namespace hpvi

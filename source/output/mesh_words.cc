@@ -53,20 +53,25 @@ std::string plural(const unsigned int n, const std::string &one, const std::stri
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-/** Of edges with one name. */
+/** Of edges, faces or cells with one name. */
 struct Total
 {
   unsigned int n = 0, n_curved = 0;
   double size = 0;
   Point<2> from, to; ///< of the first edge and of the last
 
+  void add(const double one)
+  {
+    ++n;
+    size += one;
+  }
+
   void add(const CoarseMesh &mesh, const CoarseMesh::Edge &edge)
   {
     from = n == 0 ? mesh.vertices[edge.vertices[0]] : from;
     to = mesh.vertices[edge.vertices[1]];
-    ++n;
     n_curved += bool(edge.curve);
-    size += length(mesh, edge);
+    add(length(mesh, edge));
   }
 
   std::string words(const std::string &unit) const
@@ -79,16 +84,30 @@ struct Total
   }
 };
 
-/** Which curve of a drawing is which. */
-std::string ends_in_words(const Total &curve)
+std::string boundary_name(const std::string &name)
 {
-  const auto place = [](const Point<2> &x)
-  { return "(" + text(x[0], 6) + ", " + text(x[1], 6) + ")"; };
-  return ", from " + place(curve.from) + " to " + place(curve.to);
+  return name.empty() ? "boundary without a name, free" : "boundary " + name;
 }
 
-void add_edges(const CoarseMesh &mesh, const std::string &unit, std::vector<std::string> &lines)
+/** As in "surface plate: 4 cells, area 16 mm^2" of each of @p names. */
+void add_sizes(const std::string &kind, const std::vector<std::string> &names,
+               const std::vector<Total> &totals, const std::string &size, const std::string &unit,
+               std::vector<std::string> &lines)
 {
+  for (unsigned int k = 0; k < names.size(); ++k)
+    lines.push_back(kind + names[k] + ": " + plural(totals[k].n, "cell", "cells") + ", " + size +
+                    " " + with_unit(totals[k].size, unit));
+}
+
+std::string power(const std::string &unit, const std::string &exponent)
+{
+  return unit_name(unit).empty() ? "" : unit + exponent;
+}
+} // namespace
+
+std::vector<std::string> boundaries_in_words(const CoarseMesh &mesh, const std::string &unit)
+{
+  std::vector<std::string> lines;
   std::vector<Total> boundaries(mesh.boundaries.size()), interfaces(mesh.interfaces.size());
   for (const CoarseMesh::Edge &edge : mesh.edges)
     if (edge.boundary != CoarseMesh::inside)
@@ -96,76 +115,47 @@ void add_edges(const CoarseMesh &mesh, const std::string &unit, std::vector<std:
     else if (edge.interface != CoarseMesh::inside)
       interfaces[edge.interface].add(mesh, edge);
   for (unsigned int b = 0; b < boundaries.size(); ++b)
-    lines.push_back((mesh.boundaries[b].empty() ? "boundary without a name, free"
-                                                : "boundary " + mesh.boundaries[b]) +
-                    ": " + boundaries[b].words(unit) +
-                    (mesh.is_numbered ? ends_in_words(boundaries[b]) : ""));
+    lines.push_back(
+        boundary_name(mesh.boundaries[b]) + ": " + boundaries[b].words(unit) +
+        (mesh.is_numbered // which curve of a drawing is which
+             ? ", from " + to_string(boundaries[b].from) + " to " + to_string(boundaries[b].to)
+             : ""));
   for (unsigned int i = 0; i < interfaces.size(); ++i)
     lines.push_back("curve inside " + mesh.interfaces[i] + ": " + interfaces[i].words(unit));
-}
-
-void add_surfaces(const CoarseMesh &mesh, const std::string &unit, std::vector<std::string> &lines)
-{
-  std::vector<Total> surfaces(mesh.surfaces.size());
-  const EdgeCurves curves(mesh);
-  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-  {
-    Total &surface = surfaces[mesh.cells[c].surface];
-    ++surface.n;
-    surface.size += area(BlendedCell(curves, c));
-  }
-  for (unsigned int s = 0; s < surfaces.size(); ++s)
-    lines.push_back("surface " + mesh.surfaces[s] + ": " + plural(surfaces[s].n, "cell", "cells") +
-                    ", area " +
-                    with_unit(surfaces[s].size, unit_name(unit).empty() ? "" : unit + "^2"));
-}
-} // namespace
-
-std::vector<std::string> boundaries_in_words(const CoarseMesh &mesh, const std::string &length_unit)
-{
-  std::vector<std::string> lines;
-  add_edges(mesh, length_unit, lines);
   return lines;
 }
 
 std::vector<std::string> mesh_words(const CoarseMesh &mesh, const std::string &length_unit)
 {
   const CellFlaw widest = worst_cell(mesh);
+  const EdgeCurves curves(mesh);
+  std::vector<Total> surfaces(mesh.surfaces.size());
+  for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+    surfaces[mesh.cells[c].surface].add(area(BlendedCell(curves, c)));
   std::vector<std::string> lines = {"mesh: " + plural(mesh.cells.size(), "cell", "cells") + ", " +
                                     plural(mesh.vertices.size(), "vertex", "vertices") +
                                     ", largest angle " + to_string(widest.angle) + " degrees at " +
                                     to_string(widest.at)};
-  add_edges(mesh, length_unit, lines);
-  add_surfaces(mesh, length_unit, lines);
+  for (const std::string &boundary : boundaries_in_words(mesh, length_unit))
+    lines.push_back(boundary);
+  add_sizes("surface ", mesh.surfaces, surfaces, "area", power(length_unit, "^2"), lines);
   return lines;
 }
 
 std::vector<std::string> mesh_words(const HexahedralMesh &mesh, const std::string &length_unit)
 {
-  const auto power = [&](const std::string &exponent)
-  { return unit_name(length_unit).empty() ? "" : length_unit + exponent; };
   std::vector<std::string> lines = {"mesh: " + plural(mesh.hexahedra.size(), "cell", "cells") +
                                     ", " + plural(mesh.corners.size(), "vertex", "vertices")};
   std::vector<Total> boundaries(mesh.boundaries.size()), volumes(mesh.surfaces.size());
   for (const HexahedralMesh::Face &face : mesh.faces)
-  {
-    ++boundaries[face.boundary].n;
-    boundaries[face.boundary].size += area_of(mesh.corners_of(face));
-  }
+    boundaries[face.boundary].add(area_of(mesh.corners_of(face)));
   for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
-  {
-    Total &volume = volumes[mesh.cells[c].surface];
-    ++volume.n;
-    volume.size += volume_of(mesh.corners_of(c));
-  }
+    volumes[mesh.cells[c].surface].add(volume_of(mesh.corners_of(c)));
   for (unsigned int b = 0; b < boundaries.size(); ++b)
-    lines.push_back((mesh.boundaries[b].empty() ? "boundary without a name, free"
-                                                : "boundary " + mesh.boundaries[b]) +
-                    ": " + plural(boundaries[b].n, "face", "faces") + ", area " +
-                    with_unit(boundaries[b].size, power("^2")));
-  for (unsigned int v = 0; v < volumes.size(); ++v)
-    lines.push_back("volume " + mesh.surfaces[v] + ": " + plural(volumes[v].n, "cell", "cells") +
-                    ", volume " + with_unit(volumes[v].size, power("^3")));
+    lines.push_back(boundary_name(mesh.boundaries[b]) + ": " +
+                    plural(boundaries[b].n, "face", "faces") + ", area " +
+                    with_unit(boundaries[b].size, power(length_unit, "^2")));
+  add_sizes("volume ", mesh.surfaces, volumes, "volume", power(length_unit, "^3"), lines);
   return lines;
 }
 } // namespace hpvi

@@ -252,24 +252,23 @@ std::string curves_of(const Scene<2> &scene, const std::string &name)
 std::string boundary_json(const Scene<2> &scene, const Triangulation<2> &mesh,
                           const BoundaryCondition<2> &condition)
 {
-  const std::vector<Point<2>> sample = points_on(mesh, condition.id);
+  const BoundaryPhrases phrases = phrases_of(scene, condition, mesh).value_or(BoundaryPhrases());
   const auto &d = condition.contact_direction;
   const bool speaks = !condition.pair || scene.pairs[*condition.pair].parts[0] == condition.id;
-  return json_members(
-      {{"name", json_string(condition.name)},
-       {"curves", json_string(curves_of(scene, condition.name))},
-       {"supports", json_strings(support_phrases(scene, condition, sample))},
-       {"contacts", speaks ? json_strings(contact_phrases(scene, condition, sample)) : "[]"},
-       {"loads", json_strings(traction_phrases(scene, condition, sample))},
-       {"held", json_list({boolean(bool(condition.displacement[0])),
-                           boolean(bool(condition.displacement[1]))})},
-       {"symmetry", boolean(condition.symmetry)},
-       {"spring", boolean(bool(condition.spring))},
-       {"plate", plate_json(condition.plate)},
-       {"contact", contact_name(condition)},
-       {"pair", condition.pair ? json_string(condition.pair_name) : "null"},
-       {"direction", d ? vector(*d) : "null"},
-       {"edges", edges_json(condition, mesh)}});
+  return json_members({{"name", json_string(condition.name)},
+                       {"curves", json_string(curves_of(scene, condition.name))},
+                       {"supports", json_strings(phrases.supports)},
+                       {"contacts", speaks ? json_strings(phrases.contacts) : "[]"},
+                       {"loads", json_strings(phrases.loads)},
+                       {"held", json_list({boolean(bool(condition.displacement[0])),
+                                           boolean(bool(condition.displacement[1]))})},
+                       {"symmetry", boolean(condition.symmetry)},
+                       {"spring", boolean(bool(condition.spring))},
+                       {"plate", plate_json(condition.plate)},
+                       {"contact", contact_name(condition)},
+                       {"pair", condition.pair ? json_string(condition.pair_name) : "null"},
+                       {"direction", d ? vector(*d) : "null"},
+                       {"edges", edges_json(condition, mesh)}});
 }
 
 std::string boundaries_json(const Scene<2> &scene, const Triangulation<2> &mesh)

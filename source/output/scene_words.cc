@@ -31,22 +31,50 @@ namespace
 {
 constexpr const char *coordinates[] = {"x", "y", "z"};
 
-std::string joined(const std::vector<std::string> &phrases)
+std::string joined(const std::vector<std::vector<std::string>> &lists)
 {
   std::string words;
-  for (const std::string &phrase : phrases)
-    words += (words.empty() ? "" : ", ") + phrase;
+  for (const std::vector<std::string> &phrases : lists)
+    for (const std::string &phrase : phrases)
+      words += (words.empty() ? "" : ", ") + phrase;
   return words;
 }
 
-/** "(0, 0)" with its numbers rounded. */
+/** As in "from (0, 0) to (1, 1) mm, 4 coarse cells". */
 template <int dim>
-std::string place(const Point<dim> &x)
+std::string extent_in_words(const BoundingBox<dim> &box, const std::string &length_unit,
+                            const unsigned int n_cells)
 {
-  std::string list;
-  for (unsigned int d = 0; d < dim; ++d)
-    list += (d > 0 ? ", " : "") + text(x[d], 6);
-  return "(" + list + ")";
+  const auto &[begin, end] = box.get_boundary_points();
+  const std::string unit = unit_name(length_unit);
+  return "from " + to_string(begin) + " to " + to_string(end) + (unit.empty() ? "" : " " + unit) +
+         ", " + text(n_cells) + (n_cells == 1 ? " coarse cell" : " coarse cells");
+}
+
+/** Without those of layers that a Pretension shortens: they are what is beside them. */
+template <int dim>
+unsigned int n_materials(const Scene<dim> &scene)
+{
+  unsigned int n = 0;
+  for (unsigned int m = 0; m < scene.materials.size(); ++m)
+    n += material_beside(scene, m) == m ? 1 : 0;
+  return n;
+}
+
+/** As in ", initial strain e1 = 0.001, thermal expansion 1.2e-05"; wherever the material may be. */
+template <int dim>
+std::string initial_strain_in_words(const InitialStrain<dim> &initial,
+                                    const std::vector<Point<dim>> &points)
+{
+  const std::array<std::string, 4> names{{"e1", "e2", "e12", "e33"}};
+  std::string words;
+  for (unsigned int k = 0; k < 4; ++k)
+    if (initial.components[k])
+      words += (words.empty() ? ", initial strain " : ", ") + names[k] + " = " +
+               range_in_words(values_at<dim>(points, initial.components[k]), "");
+  if (initial.expansion != 0)
+    words += ", thermal expansion " + text(initial.expansion, 6);
+  return words;
 }
 } // namespace
 
@@ -75,15 +103,6 @@ Scene<dim> at_the_end(const Scene<dim> &scene)
 }
 
 template <int dim>
-unsigned int n_materials(const Scene<dim> &scene)
-{
-  unsigned int n = 0;
-  for (unsigned int m = 0; m < scene.materials.size(); ++m)
-    n += material_beside(scene, m) == m ? 1 : 0;
-  return n;
-}
-
-template <int dim>
 std::set<std::size_t> materials_of(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::set<std::size_t> result;
@@ -99,35 +118,6 @@ std::string name_in_words(const Scene<dim> &scene, const std::size_t number)
   if (!name.empty() || n_materials(scene) == 1)
     return "material" + (name.empty() ? "" : " " + name);
   return scene.parameters ? "material elsewhere" : "material " + std::to_string(number);
-}
-
-namespace
-{
-/** As in ", initial strain e1 = 0.001, thermal expansion 1.2e-05"; wherever the material may be. */
-template <int dim>
-std::string initial_strain_in_words(const InitialStrain<dim> &initial,
-                                    const std::vector<Point<dim>> &points)
-{
-  const std::array<std::string, 4> names{{"e1", "e2", "e12", "e33"}};
-  std::string words;
-  for (unsigned int k = 0; k < 4; ++k)
-    if (initial.components[k])
-      words += (words.empty() ? ", initial strain " : ", ") + names[k] + " = " +
-               range_in_words(values_at<dim>(points, initial.components[k]), "");
-  if (initial.expansion != 0)
-    words += ", thermal expansion " + text(initial.expansion, 6);
-  return words;
-}
-} // namespace
-
-template <int dim>
-std::string temperature_in_words(const Scene<dim> &scene)
-{
-  for (const InitialStrain<dim> &initial : scene.initial_strains)
-    if (initial.temperature)
-      return "temperature: " +
-             range_in_words(values_at<dim>(sample_body(scene.geometry), initial.temperature), "");
-  return {};
 }
 
 template <int dim>
@@ -155,7 +145,6 @@ template <int dim>
 std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   const bool has_shape = scene.parameters && scene.parameters->has("Geometry", "Shape");
-  const std::string unit = unit_name(scene.length_unit);
   std::string shape = has_shape ? scene.parameters->text("Geometry", "Shape") : "";
   if (shape == "file")
   {
@@ -165,12 +154,9 @@ std::string body_in_words(const Scene<dim> &scene, const Triangulation<dim> &mes
     if (!scene.geometry.mesh->origin.empty())
       shape = name + ", " + scene.geometry.mesh->origin + ",";
   }
-  const BoundingBox<dim> box = GridTools::compute_bounding_box(mesh);
-  const auto ends = box.get_boundary_points();
-  const unsigned int n = mesh.n_active_cells();
-  return "body: " + (shape.empty() ? "" : shape + " ") + "from " + place<dim>(ends.first) + " to " +
-         place<dim>(ends.second) + (unit.empty() ? "" : " " + unit) + ", " + text(n) +
-         (n == 1 ? " coarse cell" : " coarse cells") +
+  return "body: " + (shape.empty() ? "" : shape + " ") +
+         extent_in_words(GridTools::compute_bounding_box(mesh), scene.length_unit,
+                         mesh.n_active_cells()) +
          (scene.geometry.grading_levels > 0 && !scene.geometry.graded_towards.empty()
               ? ", graded towards " + text(unsigned(scene.geometry.graded_towards.size())) +
                     (scene.geometry.graded_towards.size() == 1 ? " point" : " points")
@@ -199,7 +185,6 @@ template <int dim>
 std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::string lines;
-  const std::string unit = unit_name(scene.length_unit);
   for (unsigned int b = 0; b < scene.geometry.bodies.size(); ++b)
   {
     std::vector<Point<dim>> vertices;
@@ -213,30 +198,24 @@ std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &m
         for (const unsigned int v : cell->vertex_indices())
           vertices.push_back(cell->vertex(v));
       }
-    const auto ends = BoundingBox<dim>(vertices).get_boundary_points();
     lines += "body " + scene.geometry.bodies[b].name + ": " +
-             file_in_words(scene, scene.geometry.bodies[b].name) + "from " +
-             place<dim>(ends.first) + " to " + place<dim>(ends.second) +
-             (unit.empty() ? "" : " " + unit) + ", " + text(n) +
-             (n == 1 ? " coarse cell" : " coarse cells") +
+             file_in_words(scene, scene.geometry.bodies[b].name) +
+             extent_in_words(BoundingBox<dim>(vertices), scene.length_unit, n) +
              (n_materials(scene) > 1 ? ", " + name_in_words(scene, material) : "") + "\n";
   }
   return lines;
 }
 
 /** Where bodies lie on each other as if they did not know. */
-std::string bare_joints_in_words(const Scene<2> &scene)
+template <int dim>
+std::string bare_joints_in_words(const Scene<dim> &scene)
 {
   std::string lines;
-  for (const BareJoint<2> &joint : bare_joints(scene))
-    lines += joint.sides[0] + " and " + joint.sides[1] + " lie on each other at " +
-             place<2>(joint.at) + ", and no Contact names them\n";
+  if constexpr (dim == 2)
+    for (const BareJoint<2> &joint : bare_joints(scene))
+      lines += joint.sides[0] + " and " + joint.sides[1] + " lie on each other at " +
+               to_string(joint.at) + ", and no Contact names them\n";
   return lines;
-}
-
-std::string bare_joints_in_words(const Scene<3> &)
-{
-  return {};
 }
 
 /** What a mesh file holds. */
@@ -266,21 +245,12 @@ std::string materials_in_words(const Scene<dim> &scene, const Triangulation<dim>
   std::string lines;
   for (const std::size_t k : materials_of(scene, mesh))
     lines += name_in_words(scene, k) + ": " + material_in_words(scene, scene.materials[k]) + "\n";
-  const std::string temperature = temperature_in_words(scene);
-  return lines + (temperature.empty() ? "" : temperature + "\n");
-}
-
-/** All that a boundary has, phrase by phrase; empty where it is free. */
-template <int dim>
-std::vector<std::string> phrases_of(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
-                                    const std::vector<Point<dim>> &points)
-{
-  std::vector<std::string> phrases;
-  for (const auto &some :
-       {support_phrases(scene, boundary, points), contact_phrases(scene, boundary, points),
-        traction_phrases(scene, boundary, points)})
-    phrases.insert(phrases.end(), some.begin(), some.end());
-  return phrases;
+  for (const InitialStrain<dim> &initial : scene.initial_strains)
+    if (initial.temperature)
+      return lines + "temperature: " +
+             range_in_words(values_at<dim>(sample_body(scene.geometry), initial.temperature), "") +
+             "\n";
+  return lines;
 }
 
 template <int dim>
@@ -290,10 +260,10 @@ std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim
   std::vector<std::string> free;
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {
-    const std::vector<Point<dim>> points = points_on(mesh, boundary.id);
-    if (points.empty() || (boundary.pair && scene.pairs[*boundary.pair].parts[0] != boundary.id))
+    const std::optional<BoundaryPhrases> phrases = phrases_of(scene, boundary, mesh);
+    if (!phrases || (boundary.pair && scene.pairs[*boundary.pair].parts[0] != boundary.id))
       continue; // the first of two sides speaks for both
-    const std::string words = joined(phrases_of(scene, boundary, points));
+    const std::string words = joined({phrases->supports, phrases->contacts, phrases->loads});
     if (words.empty())
       free.push_back(boundary.name.empty()
                          ? (dim == 2 ? "edges without a name" : "faces without a name")
@@ -301,7 +271,7 @@ std::string boundaries_in_words(const Scene<dim> &scene, const Triangulation<dim
     else
       lines += name_and_place(scene, boundary) + ": " + words + "\n";
   }
-  return lines + (free.empty() ? "" : "free: " + joined(free) + "\n");
+  return lines + (free.empty() ? "" : "free: " + joined({free}) + "\n");
 }
 
 template <int dim>
@@ -324,7 +294,20 @@ std::string body_force_in_words(const Scene<dim> &scene, const Triangulation<dim
     if (!all_zero(values[c]))
       phrases.push_back(std::string(coordinates[c]) + ": " +
                         range_in_words(values[c], body_force_unit(scene)));
-  return "body force: " + joined(phrases) + "\n";
+  return "body force: " + joined({phrases}) + "\n";
+}
+
+/** As in "20 load steps". */
+template <int dim>
+std::string history_in_words(const Loading<dim> &loading)
+{
+  return text(loading.steps) + " load steps" +
+         (loading.until_steady == 0
+              ? ""
+              : ", repeated until the energy that friction dissipates in a cycle changes by less "
+                "than " +
+                    text(100 * loading.until_steady, shown_digits) + " %, at most " +
+                    text(loading.maximum_cycles) + " times");
 }
 
 /** Without blank lines. */
@@ -343,18 +326,6 @@ std::string resultant_in_words(const Scene<dim> &scene, const bool is_primal)
     if (!is_primal)
       return one_ending(loads_in_words(scene));
   return one_ending(LoadCheck<dim>(scene).in_words());
-}
-
-template <int dim>
-std::string history_in_words(const Loading<dim> &loading)
-{
-  return text(loading.steps) + " load steps" +
-         (loading.until_steady == 0
-              ? ""
-              : ", repeated until the energy that friction dissipates in a cycle changes by less "
-                "than " +
-                    text(100 * loading.until_steady, shown_digits) + " %, at most " +
-                    text(loading.maximum_cycles) + " times");
 }
 
 template <int dim>
@@ -378,15 +349,11 @@ std::string scene_in_words(const Scene<dim> &scene)
 }
 
 template std::string body_force_unit(const Scene<2> &);
-template std::string temperature_in_words(const Scene<2> &);
-template unsigned int n_materials(const Scene<2> &);
 template std::set<std::size_t> materials_of(const Scene<2> &, const Triangulation<2> &);
 template Scene<2> at_the_end(const Scene<2> &);
 template Scene<3> at_the_end(const Scene<3> &);
 template std::string name_in_words(const Scene<2> &, std::size_t);
 template std::string material_in_words(const Scene<2> &, const Material &);
-template std::string history_in_words(const Loading<2> &);
-template std::string history_in_words(const Loading<3> &);
 template std::string scene_in_words(const Scene<2> &);
 template std::string scene_in_words(const Scene<3> &);
 template std::string resultant_in_words(const Scene<2> &, bool);

@@ -6,6 +6,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,38 +31,27 @@ std::string with_unit(double value, const std::string &unit, int digits = 6);
  */
 std::string force_unit(const std::string &stress, const std::string &length);
 
-/** That of moments and energies, as in "N mm" or "bar mm^3". */
-std::string moment_unit(const std::string &stress, const std::string &length);
-
 /** The least and the largest of @p values, as in "0.3 mm" or, where they differ, "0 to 0.3 mm". */
 std::string range_in_words(const std::vector<double> &values, const std::string &unit);
 
-/** Points on the faces of @p boundary on @p mesh at which ranges are taken, vertices among them. */
-template <int dim>
-std::vector<dealii::Point<dim>> points_on(const dealii::Triangulation<dim> &mesh,
-                                          dealii::types::boundary_id boundary);
+/** What is said of a boundary, phrase by phrase. */
+struct BoundaryPhrases
+{
+  std::vector<std::string> supports, ///< as in "clamped" or "ux = -0.1 mm", "uy free"
+      contacts, ///< as in "unilateral contact", "gap 0 to 0.2 mm", "friction coefficient 0.3"
+      loads;    ///< as in "traction x: 1.5 to 7.5 MPa", "y: -1 MPa"
+};
 
-/** What holds a boundary, as in "clamped" or "ux = -0.1 mm", "uy free"; empty: nothing does. */
+/** Of @p boundary, whose values are those at some points of its faces on @p mesh; nothing where it has none. */
 template <int dim>
-std::vector<std::string> support_phrases(const Scene<dim> &scene,
-                                         const BoundaryCondition<dim> &boundary,
-                                         const std::vector<dealii::Point<dim>> &points);
+std::optional<BoundaryPhrases> phrases_of(const Scene<dim> &scene,
+                                          const BoundaryCondition<dim> &boundary,
+                                          const dealii::Triangulation<dim> &mesh);
 
 /** As in "support left", "symmetry left", "spring bottom". */
 template <int dim>
 std::string kind_of_support(const Scene<dim> &scene, const std::string &boundary);
 
-/** What it touches, as in "unilateral contact", "gap 0 to 0.2 mm", "friction coefficient 0.3". */
-template <int dim>
-std::vector<std::string> contact_phrases(const Scene<dim> &scene,
-                                         const BoundaryCondition<dim> &boundary,
-                                         const std::vector<dealii::Point<dim>> &points);
-
-/** What pushes it, as in "traction x: 1.5 to 7.5 MPa", "y: -1 MPa". */
-template <int dim>
-std::vector<std::string> traction_phrases(const Scene<dim> &scene,
-                                          const BoundaryCondition<dim> &boundary,
-                                          const std::vector<dealii::Point<dim>> &points);
 } // namespace hpvi
 
 #endif

@@ -23,10 +23,6 @@ Scene<dim> at_the_end(const Scene<dim> &scene);
 template <int dim>
 std::string material_in_words(const Scene<dim> &scene, const Material &material);
 
-/** As in "temperature: 20 to 80"; empty where there is none. */
-template <int dim>
-std::string temperature_in_words(const Scene<dim> &scene);
-
 /** As in "material", "material steel"; the unnamed one of a file with several is "material elsewhere". */
 template <int dim>
 std::string name_in_words(const Scene<dim> &scene, std::size_t number);
@@ -34,14 +30,6 @@ std::string name_in_words(const Scene<dim> &scene, std::size_t number);
 /** Those that cells have: where all are named, none has the unnamed one. */
 template <int dim>
 std::set<std::size_t> materials_of(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh);
-
-/** Without those of layers that a Pretension shortens: they are what is beside them. */
-template <int dim>
-unsigned int n_materials(const Scene<dim> &scene);
-
-/** As in "20 load steps". */
-template <int dim>
-std::string history_in_words(const Loading<dim> &loading);
 
 /**
  * What a scene says, a line each: body, materials, each boundary that is not free, the resultant of all loads. Throws
