@@ -4,7 +4,7 @@
 #include <hpvi/output/vtk_file.h>
 #include <hpvi/scene/boundary_parts.h>
 
-#include <functional>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -91,103 +91,71 @@ private:
   const double sign;
 };
 
-/** Arrays by point, filled point by point. */
-template <int dim>
-class Columns
+/** Components along the axes of space; what is one number in the plane stays one. */
+std::vector<double> tuple(const double number)
 {
-public:
-  explicit Columns(const Scene<dim> &scene) : scene(scene)
-  {
-  }
+  return {number};
+}
 
-  void add(const ContactPoint<dim> &point, const ContactState<dim> &state,
-           const Frames<dim> &frames)
-  {
-    const bool has_gap = scene.boundaries[state.boundary].contact != Contact::tangential;
-    add(displacement,
-        frames.vector(point, point.normal_displacement, point.tangential_displacement));
-    add(traction, frames.vector(point, point.normal_traction, point.tangential_traction));
-    add(jump, frames.vector(point, point.normal_jump, point.tangential_jump));
-    gap.push_back(has_gap ? point.gap : std::numeric_limits<double>::quiet_NaN());
-    normal_traction.push_back(point.normal_traction);
-    modes.push_back(int(point.mode()));
-    boundaries.push_back(int(state.boundary));
-    weight.push_back(point.area);
-    add(tangential_traction, point.tangential_traction);
-    add(slip, point.slip);
-    add(multiplier, point.lambda);
-  }
-
-  std::vector<VtkArray> arrays() const
-  {
-    const std::string &length = scene.length_unit, &stress = scene.stress_unit;
-    const unsigned int n = dim == 2 ? 1 : 3; // components of what is tangential
-    std::vector<VtkArray> result{vtk_array("displacement", displacement, 3, length),
-                                 vtk_array("traction", traction, 3, stress),
-                                 vtk_array("gap", gap, 1, length),
-                                 vtk_array("normal_traction", normal_traction, 1, stress),
-                                 vtk_array("tangential_traction", tangential_traction, n, stress),
-                                 vtk_array("multiplier", multiplier, n),
-                                 vtk_array("state", modes),
-                                 vtk_array("boundary", boundaries),
-                                 vtk_array("weight", weight)};
-    if (scene.has_load_history())
-      result.push_back(vtk_array("slip", slip, n, length));
-    if (scene.has_pairs())
-      result.push_back(vtk_array("jump", jump, 3, length));
-    return result;
-  }
-
-private:
-  static void add(std::vector<double> &column, const double number)
-  {
-    column.push_back(number);
-  }
-
-  static void add(std::vector<double> &column, const Tensor<1, dim> &vector)
-  {
-    for (unsigned int d = 0; d < 3; ++d)
-      column.push_back(d < dim ? vector[d] : 0.);
-  }
-
-  const Scene<dim> &scene;
-  std::vector<double> displacement, traction, jump, gap, normal_traction, tangential_traction, slip,
-      multiplier, weight;
-  std::vector<int> modes, boundaries;
-};
-
-/** A column of contact-history.csv each; what stays empty is left out. */
 template <int dim>
-std::vector<VtkArray> history_arrays(const Scene<dim> &scene,
-                                     const std::vector<ContactState<dim>> &contact,
-                                     const std::vector<ContactHistory> &history)
+std::vector<double> tuple(const Tensor<1, dim> &vector)
 {
-  std::vector<std::pair<std::string, std::vector<double>>> columns;
-  bool has_wear = false;
-  for (const ContactState<dim> &state : contact)
-    for (const ContactHistory &own : history)
-    {
-      if (own.boundary != state.boundary || own.points.size() != state.points.size())
-        continue;
-      const double wear = scene.boundaries[state.boundary].wear;
-      has_wear = has_wear || wear > 0;
+  std::vector<double> components(3);
+  for (unsigned int d = 0; d < dim; ++d)
+    components[d] = vector[d];
+  return components;
+}
+
+/** Appends to the array of this name, which is made at the first point. */
+template <class Number>
+void add(std::vector<VtkArray> &arrays, const std::string &name, const std::vector<Number> &numbers,
+         const std::string &unit = "")
+{
+  auto array = std::find_if(arrays.begin(), arrays.end(),
+                            [&](const VtkArray &one) { return one.name == name; });
+  if (array == arrays.end())
+    array = arrays.insert(array, vtk_array(name, std::vector<Number>(), numbers.size(), unit));
+  array->bytes += vtk_array(name, numbers).bytes;
+}
+
+template <int dim>
+void add_point(const ContactPoint<dim> &point, const ContactState<dim> &state,
+               const Scene<dim> &scene, const Frames<dim> &frames, std::vector<VtkArray> &arrays)
+{
+  const std::string &length = scene.length_unit, &stress = scene.stress_unit;
+  const bool has_gap = scene.boundaries[state.boundary].contact != Contact::tangential;
+  const auto vector = [&](const double normal_part, const Tangential<dim> &tangential_part)
+  { return tuple(frames.vector(point, normal_part, tangential_part)); };
+  add(arrays, "displacement", vector(point.normal_displacement, point.tangential_displacement),
+      length);
+  add(arrays, "traction", vector(point.normal_traction, point.tangential_traction), stress);
+  add(arrays, "gap", tuple(has_gap ? point.gap : std::numeric_limits<double>::quiet_NaN()), length);
+  add(arrays, "normal_traction", tuple(point.normal_traction), stress);
+  add(arrays, "tangential_traction", tuple(point.tangential_traction), stress);
+  add(arrays, "multiplier", tuple(point.lambda));
+  add(arrays, "state", std::vector<int>{int(point.mode())});
+  add(arrays, "boundary", std::vector<int>{int(state.boundary)});
+  add(arrays, "weight", tuple(point.area));
+  if (scene.has_load_history())
+    add(arrays, "slip", tuple(point.slip), length);
+  if (scene.has_pairs())
+    add(arrays, "jump", vector(point.normal_jump, point.tangential_jump), length);
+}
+
+/** A column of contact-history.csv each; the wear where something wears. */
+template <int dim>
+void add_history(const ContactState<dim> &state, const Scene<dim> &scene,
+                 const std::vector<ContactHistory> &history, std::vector<VtkArray> &arrays)
+{
+  const bool has_wear = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
+                                    [](const auto &boundary) { return boundary.wear > 0; });
+  for (const ContactHistory &own : history)
+    if (own.boundary == state.boundary && own.points.size() == state.points.size())
       for (const PointHistory &point : own.points)
-      {
-        const Record record = history_record(point, wear);
-        columns.resize(record.size());
-        for (std::size_t k = 0; k < record.size(); ++k)
-        {
-          columns[k].first = record[k].first;
-          columns[k].second.push_back(
-              number(record[k].second).value_or(std::numeric_limits<double>::quiet_NaN()));
-        }
-      }
-    }
-  std::vector<VtkArray> arrays;
-  for (const auto &[name, values] : columns)
-    if (has_wear || name != "wear_depth")
-      arrays.push_back(vtk_array(name, values));
-  return arrays;
+        for (const auto &[name, value] : history_record(point, scene.boundaries[own.boundary].wear))
+          if (has_wear || name != "wear_depth")
+            add(arrays, name,
+                tuple(number(value).value_or(std::numeric_limits<double>::quiet_NaN())));
 }
 } // namespace
 
@@ -196,24 +164,23 @@ std::string contact_line(const Scene<dim> &scene, const std::vector<ContactState
                          const unsigned int step, const std::vector<ContactHistory> &history)
 {
   VtkGrid grid(step);
-  Columns<dim> columns(scene);
-  std::vector<double> lengths;
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const ContactState<dim> &state : contact)
   {
     const int first = int(grid.points.size() / 3);
     const Frames<dim> frames(scene, state, sides);
-    for (const ContactPoint<dim> &point : state.points)
+    const std::vector<double> lengths = arc_lengths(state);
+    for (unsigned int k = 0; k < state.points.size(); ++k)
     {
-      for (unsigned int d = 0; d < 3; ++d)
-        grid.points.push_back(d < dim ? point.x[d] : 0.);
-      columns.add(point, state, frames);
-    }
-    const std::vector<double> of_state = arc_lengths(state);
-    lengths.insert(lengths.end(), of_state.begin(), of_state.end());
-    if (dim == 3)
-      for (unsigned int k = 0; k < state.points.size(); ++k)
+      const std::vector<double> x = tuple(state.points[k].x);
+      grid.points.insert(grid.points.end(), x.begin(), x.end());
+      add_point(state.points[k], state, scene, frames, grid.point_data);
+      if (dim == 2)
+        add(grid.point_data, "arc_length", tuple(lengths[k]), scene.length_unit);
+      else
         grid.add_cell(VtkCell::vertex, {first + int(k)});
+    }
+    add_history(state, scene, history, grid.point_data);
     for (const Piece &piece : pieces_of(state))
     {
       std::vector<int> nodes(piece.last - piece.first);
@@ -221,11 +188,6 @@ std::string contact_line(const Scene<dim> &scene, const std::vector<ContactState
       grid.add_cell(nodes.size() == 1 ? VtkCell::vertex : VtkCell::poly_line, nodes);
     }
   }
-  grid.point_data = columns.arrays();
-  if (dim == 2)
-    grid.point_data.push_back(vtk_array("arc_length", lengths, 1, scene.length_unit));
-  for (const VtkArray &array : history_arrays(scene, contact, history))
-    grid.point_data.push_back(array);
   return grid.vtu();
 }
 

@@ -30,31 +30,7 @@ const char *vtk_type()
   else
     return "UInt8";
 }
-} // namespace
 
-template <class Number>
-VtkArray vtk_array(const std::string &name, const std::vector<Number> &numbers,
-                   const unsigned int n_components, const std::string &unit)
-{
-  const char *const begin = reinterpret_cast<const char *>(numbers.data());
-  return {name,
-          vtk_type<Number>(),
-          n_components,
-          unit,
-          {begin, begin + numbers.size() * sizeof(Number)}};
-}
-
-template VtkArray vtk_array(const std::string &, const std::vector<float> &, unsigned int,
-                            const std::string &);
-template VtkArray vtk_array(const std::string &, const std::vector<double> &, unsigned int,
-                            const std::string &);
-template VtkArray vtk_array(const std::string &, const std::vector<int> &, unsigned int,
-                            const std::string &);
-template VtkArray vtk_array(const std::string &, const std::vector<unsigned char> &, unsigned int,
-                            const std::string &);
-
-namespace
-{
 /** One block that zlib has compressed, as fast as it can, behind its sizes; no numbers are no block, as of a process without cells. */
 void add_encoded(const std::string &bytes, std::string &text)
 {
@@ -118,9 +94,26 @@ std::string head(const std::string &type, const bool has_hexahedra)
 }
 } // namespace
 
-VtkGrid::VtkGrid(const unsigned int number) : number(number)
+template <class Number>
+VtkArray vtk_array(const std::string &name, const std::vector<Number> &numbers,
+                   const unsigned int n_components, const std::string &unit)
 {
+  const char *const begin = reinterpret_cast<const char *>(numbers.data());
+  return {name,
+          vtk_type<Number>(),
+          n_components,
+          unit,
+          {begin, begin + numbers.size() * sizeof(Number)}};
 }
+
+template VtkArray vtk_array(const std::string &, const std::vector<float> &, unsigned int,
+                            const std::string &);
+template VtkArray vtk_array(const std::string &, const std::vector<double> &, unsigned int,
+                            const std::string &);
+template VtkArray vtk_array(const std::string &, const std::vector<int> &, unsigned int,
+                            const std::string &);
+template VtkArray vtk_array(const std::string &, const std::vector<unsigned char> &, unsigned int,
+                            const std::string &);
 
 void VtkGrid::add_cell(const VtkCell kind, const std::vector<int> &nodes)
 {
@@ -131,10 +124,9 @@ void VtkGrid::add_cell(const VtkCell kind, const std::vector<int> &nodes)
 
 std::string VtkGrid::vtu() const
 {
-  bool has_hexahedra = false;
-  for (const unsigned char kind : kinds)
-    has_hexahedra =
-        has_hexahedra || kind == static_cast<unsigned char>(VtkCell::lagrange_hexahedron);
+  const bool has_hexahedra =
+      std::count(kinds.begin(), kinds.end(),
+                 static_cast<unsigned char>(VtkCell::lagrange_hexahedron)) > 0;
   const std::string step = std::to_string(number);
   std::string text = head("UnstructuredGrid", has_hexahedra) + "<UnstructuredGrid>\n<FieldData>\n";
   for (const std::string name : {"CYCLE", "TIME"})

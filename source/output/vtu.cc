@@ -32,26 +32,26 @@ ShapeTable<dim> table_at_nodes(const unsigned int degree)
   return tabulate<dim>(degree, nodes, std::vector<double>(nodes.size(), 1.), false);
 }
 
-/** Numbers by point that become an array. */
-struct PointField
-{
-  std::string name;
-  unsigned int n_components;
-  std::vector<float> numbers = {};
-};
-
 /** What is written of u_N at points. */
 template <int dim>
-class PointFields
+struct PointFields
 {
-public:
-  PointFields()
+  static constexpr unsigned int n_stresses = SymmetricTensor<2, dim>::n_independent_components;
+  std::vector<VtkArray> arrays;
+
+  explicit PointFields(const Scene<dim> &scene)
   {
-    for (unsigned int i = 0; i < stress.size(); ++i)
+    const auto declare = [&](const std::string &name, const unsigned int n, const std::string &unit)
+    { arrays.push_back(vtk_array(name, std::vector<float>(), n, unit)); };
+    declare("displacement", 3, scene.length_unit);
+    declare("von_mises", 1, scene.stress_unit);
+    for (unsigned int i = 0; i < n_stresses; ++i)
     {
       const auto index = SymmetricTensor<2, dim>::unrolled_to_component_indices(i);
-      stress[i] = {std::string("sigma_") + "xyz"[index[0]] + "xyz"[index[1]], 1};
+      declare(std::string("sigma_") + "xyz"[index[0]] + "xyz"[index[1]], 1, scene.stress_unit);
     }
+    if (dim == 2)
+      declare("sigma_zz", 1, scene.stress_unit); // 0 in plane stress
   }
 
   void add(const PointValue<dim> &value)
@@ -63,33 +63,18 @@ public:
     if (dim == 2)
       full[2][2] = value.across;
     for (unsigned int d = 0; d < 3; ++d)
-      displacement.numbers.push_back(d < dim ? value.displacement[d] : 0.);
-    mises.numbers.push_back(von_mises(full));
-    for (unsigned int i = 0; i < stress.size(); ++i)
-      stress[i].numbers.push_back(value.stress.access_raw_entry(i));
-    across.numbers.push_back(value.across);
-  }
-
-  std::vector<VtkArray> arrays(const Scene<dim> &scene) const
-  {
-    std::vector<VtkArray> result{array(displacement, scene.length_unit),
-                                 array(mises, scene.stress_unit)};
-    for (const PointField &component : stress)
-      result.push_back(array(component, scene.stress_unit));
+      append(arrays[0], d < dim ? value.displacement[d] : 0.);
+    append(arrays[1], von_mises(full));
+    for (unsigned int i = 0; i < n_stresses; ++i)
+      append(arrays[2 + i], value.stress.access_raw_entry(i));
     if (dim == 2)
-      result.push_back(array(across, scene.stress_unit));
-    return result;
+      append(arrays.back(), value.across);
   }
 
-private:
-  static VtkArray array(const PointField &field, const std::string &unit)
+  static void append(VtkArray &array, const float number)
   {
-    return vtk_array(field.name, field.numbers, field.n_components, unit);
+    array.bytes.append(reinterpret_cast<const char *>(&number), sizeof number);
   }
-
-  PointField displacement{"displacement", 3}, mises{"von_mises", 1};
-  std::array<PointField, SymmetricTensor<2, dim>::n_independent_components> stress;
-  PointField across{"sigma_zz", 1}; ///< in the plane: 0 in plane stress
 };
 
 /** Means over the contact faces of each cell, by active cell index. */
@@ -122,30 +107,30 @@ template <int dim>
 std::vector<VtkArray> cell_data(const StepReport<dim> &step, const bool is_shared)
 {
   const Scene<dim> &scene = step.scene;
-  std::vector<float> degree, estimate, process, material, pressure, friction;
   const ContactMeans means(step.field);
-  for (const auto &cell : step.field.dof_handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-    {
-      const unsigned int index = cell->active_cell_index();
-      degree.push_back(step.field.degree(cell));
-      estimate.push_back(std::sqrt(scene.thickness) * step.estimate.indicator(index));
-      process.push_back(rank_of(step.field.communicator()));
-      material.push_back(cell->material_id());
-      pressure.push_back(means.pressure[index]);
-      friction.push_back(means.friction[index]);
-    }
-  std::vector<VtkArray> result{vtk_array("degree", degree), vtk_array("estimate", estimate)};
-  if (is_shared)
-    result.push_back(vtk_array("process", process));
-  if (scene.materials.size() > 1)
-    result.push_back(vtk_array("material", material));
-  if (scene.has_contact())
+  std::vector<VtkArray> arrays;
+  const auto add = [&](const std::string &name, const std::string &unit, const auto &value_in)
   {
-    result.push_back(vtk_array("contact_pressure", pressure, 1, scene.stress_unit));
-    result.push_back(vtk_array("contact_friction", friction, 1, scene.stress_unit));
-  }
-  return result;
+    std::vector<float> numbers;
+    for (const auto &cell : step.field.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        numbers.push_back(value_in(cell));
+    arrays.push_back(vtk_array(name, numbers, 1, unit));
+  };
+  add("degree", "", [&](const auto &cell) { return step.field.degree(cell); });
+  add("estimate", "",
+      [&](const auto &cell)
+      { return std::sqrt(scene.thickness) * step.estimate.indicator(cell->active_cell_index()); });
+  if (is_shared)
+    add("process", "", [&](const auto &) { return rank_of(step.field.communicator()); });
+  if (scene.materials.size() > 1)
+    add("material", "", [](const auto &cell) { return cell->material_id(); });
+  for (const auto &[name, mean] : {std::pair("contact_pressure", &means.pressure),
+                                   std::pair("contact_friction", &means.friction)})
+    if (scene.has_contact())
+      add(name, scene.stress_unit,
+          [&mean = mean](const auto &cell) { return (*mean)[cell->active_cell_index()]; });
+  return arrays;
 }
 
 template <int dim>
@@ -163,7 +148,7 @@ Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces)
   const bool is_shared = pieces.size() > 1;
   std::map<unsigned int, ShapeTable<dim>> tables; // by degree
   std::map<unsigned int, std::vector<int>> orders;
-  PointFields<dim> fields;
+  PointFields<dim> fields(step.scene);
   VtkGrid grid(step.number);
   for (const auto &cell : step.field.dof_handler.active_cell_iterators())
   {
@@ -189,7 +174,7 @@ Vtu vtu(const StepReport<dim> &step, const std::vector<std::string> &pieces)
     for (const PointValue<dim> &value : values_at(step.field, cell, tables.at(degree)))
       fields.add(value);
   }
-  grid.point_data = fields.arrays(step.scene);
+  grid.point_data = std::move(fields.arrays);
   grid.cell_data = cell_data(step, is_shared);
   return {grid.vtu(), is_shared ? grid.pvtu(pieces) : ""};
 }

@@ -43,7 +43,9 @@ class VtkGrid
 {
 public:
   /** @p number: of the step, field data TIME and CYCLE. */
-  explicit VtkGrid(unsigned int number);
+  explicit VtkGrid(unsigned int number) : number(number)
+  {
+  }
 
   std::vector<double> points; ///< x, y, z of each
   std::vector<VtkArray> point_data, cell_data;
