@@ -18,20 +18,19 @@ void add(Record &record, const std::string &name, const Measured &number)
                       number.interval ? Value(number.interval->half_width) : Value());
 }
 
-std::string name_of(const ForceKind kind)
+constexpr const char *kinds[] = {"support", "contact", "load", "pretension"}; // of ForceKind
+
+/** On the coarse mesh, so that a refined one does not shift the mean. */
+template <int dim>
+std::vector<Point<dim>> coarse_points(const Triangulation<dim> &mesh, const types::boundary_id id)
 {
-  switch (kind)
-  {
-  case ForceKind::support:
-    return "support";
-  case ForceKind::contact:
-    return "contact";
-  case ForceKind::load:
-    return "load";
-  case ForceKind::pretension:
-    return "pretension";
-  }
-  return {};
+  std::vector<Point<dim>> points;
+  for (const auto &cell : mesh.cell_iterators_on_level(0))
+    for (const auto &face : cell->face_iterators())
+      if (face->at_boundary() && face->boundary_id() == id)
+        for (const unsigned int v : face->vertex_indices())
+          points.push_back(face->vertex(v));
+  return points;
 }
 } // namespace
 
@@ -46,7 +45,7 @@ std::vector<Record> forces_rows(const StepReport<dim> &step)
                {"load_step", is_history ? Value(step.load.number) : Value()},
                {"t", is_history ? Value(step.load.t) : Value()},
                {"name", force.name},
-               {"kind", name_of(force.kind)}};
+               {"kind", kinds[static_cast<unsigned int>(force.kind)]}};
     for (unsigned int d = 0; d < dim; ++d)
       add(row, std::string("F") + "xyz"[d], force.force[d]);
     for (unsigned int d = 0; d < force.n_moments; ++d)
@@ -57,22 +56,6 @@ std::vector<Record> forces_rows(const StepReport<dim> &step)
   }
   return rows;
 }
-
-namespace
-{
-/** On the coarse mesh, so that a refined one does not shift the mean. */
-template <int dim>
-std::vector<Point<dim>> coarse_points(const Triangulation<dim> &mesh, const types::boundary_id id)
-{
-  std::vector<Point<dim>> points;
-  for (const auto &cell : mesh.cell_iterators_on_level(0))
-    for (const auto &face : cell->face_iterators())
-      if (face->at_boundary() && face->boundary_id() == id)
-        for (const unsigned int v : face->vertex_indices())
-          points.push_back(face->vertex(v));
-  return points;
-}
-} // namespace
 
 template <int dim>
 Record prescribed_displacements(const StepReport<dim> &step)

@@ -29,6 +29,25 @@ std::array<std::pair<const char *, double>, 4> invariants(const FullStress &stre
            {dim == 2 ? "szz" : "s3", principal[2]},
            {"mises", von_mises(stress)}}};
 }
+
+template <int dim>
+std::string in_words(const Probe<dim> &probe, const std::string &length_unit)
+{
+  switch (probe.kind)
+  {
+  case ProbeKind::point:
+    return "at " + to_string(probe.at);
+  case ProbeKind::disc:
+    return "mean over the disc of radius " + with_unit(probe.size, length_unit) + " about " +
+           to_string(probe.at);
+  case ProbeKind::boundary:
+    return "mean along " + probe.side;
+  case ProbeKind::line:
+    return text(probe.n_points) + " points from " + to_string(probe.from) + " to " +
+           to_string(probe.to);
+  }
+  return {};
+}
 } // namespace
 
 template <int dim>
@@ -80,28 +99,6 @@ std::vector<Record> probe_rows(const ProbeLine<dim> &line)
   }
   return rows;
 }
-
-namespace
-{
-template <int dim>
-std::string in_words(const Probe<dim> &probe, const std::string &length_unit)
-{
-  switch (probe.kind)
-  {
-  case ProbeKind::point:
-    return "at " + to_string(probe.at);
-  case ProbeKind::disc:
-    return "mean over the disc of radius " + with_unit(probe.size, length_unit) + " about " +
-           to_string(probe.at);
-  case ProbeKind::boundary:
-    return "mean along " + probe.side;
-  case ProbeKind::line:
-    return text(probe.n_points) + " points from " + to_string(probe.from) + " to " +
-           to_string(probe.to);
-  }
-  return {};
-}
-} // namespace
 
 template <int dim>
 std::string probes_in_words(const Scene<dim> &scene)

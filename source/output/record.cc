@@ -57,6 +57,18 @@ void add_line(std::string &table, const Fields &fields, const Text &of)
     table += std::exchange(separator, ",") + quoted(of(field));
   table += '\n';
 }
+
+/** Items between what opens and closes their list. */
+std::string enclosed(const std::string &ends, const std::vector<std::string> &items,
+                     const unsigned int indent)
+{
+  const std::string line = indent == 0 ? "" : "\n" + std::string(indent, ' ');
+  std::string list;
+  for (const std::string &item : items)
+    list += (list.empty() ? line : indent == 0 ? ", " : "," + line) + item;
+  return ends[0] + list + (list.empty() || indent == 0 ? "" : "\n" + std::string(indent - 2, ' ')) +
+         ends[1];
+}
 } // namespace
 
 std::string text(const Value &value)
@@ -170,21 +182,6 @@ std::string json_value(const Value &value)
          : std::holds_alternative<std::string>(value) ? json_string(field)
                                                       : field;
 }
-
-namespace
-{
-/** Items between what opens and closes their list. */
-std::string enclosed(const std::string &ends, const std::vector<std::string> &items,
-                     const unsigned int indent)
-{
-  const std::string line = indent == 0 ? "" : "\n" + std::string(indent, ' ');
-  std::string list;
-  for (const std::string &item : items)
-    list += (list.empty() ? line : indent == 0 ? ", " : "," + line) + item;
-  return ends[0] + list + (list.empty() || indent == 0 ? "" : "\n" + std::string(indent - 2, ' ')) +
-         ends[1];
-}
-} // namespace
 
 std::string json_list(const std::vector<std::string> &items, const unsigned int indent)
 {

@@ -102,6 +102,24 @@ EarlierRun earlier_run(const fs::path &directory, const std::set<std::string> &n
       run.files.add(name);
   return run;
 }
+
+/** Replace what follows the first @p same bytes of a file of @p size, or leave it as it was. */
+std::error_code replace_end(const int file, const std::string &content, const std::size_t same,
+                            const std::size_t size)
+{
+  std::string before(size - same, '\0');
+  bool done = pread(file, before.data(), before.size(), same) == ssize_t(before.size());
+  for (std::size_t at = same; done && at < content.size();) // once, but where a disk is full
+  {
+    const ssize_t n = pwrite(file, content.data() + at, content.size() - at, at);
+    done = n > 0;
+    at += std::max<ssize_t>(n, 0);
+  }
+  const std::error_code error(done ? 0 : errno, std::generic_category());
+  if (error && pwrite(file, before.data(), before.size(), same) >= 0)
+    std::ignore = ftruncate(file, size);
+  return error;
+}
 } // namespace
 
 std::string numbered(const std::string &name, const unsigned int step, const std::string &suffix)
@@ -347,27 +365,6 @@ std::error_code ResultDirectory::write(const std::string &name, const std::strin
   return is_gone() ? std::make_error_code(std::errc::no_such_file_or_directory)
                    : write_whole(path / name, content, partial_name);
 }
-
-namespace
-{
-/** Replace what follows the first @p same bytes of a file of @p size, or leave it as it was. */
-std::error_code replace_end(const int file, const std::string &content, const std::size_t same,
-                            const std::size_t size)
-{
-  std::string before(size - same, '\0');
-  bool done = pread(file, before.data(), before.size(), same) == ssize_t(before.size());
-  for (std::size_t at = same; done && at < content.size();) // once, but where a disk is full
-  {
-    const ssize_t n = pwrite(file, content.data() + at, content.size() - at, at);
-    done = n > 0;
-    at += std::max<ssize_t>(n, 0);
-  }
-  const std::error_code error(done ? 0 : errno, std::generic_category());
-  if (error && pwrite(file, before.data(), before.size(), same) >= 0)
-    std::ignore = ftruncate(file, size);
-  return error;
-}
-} // namespace
 
 std::error_code ResultDirectory::update(const std::string &name, const std::string &content,
                                         const std::size_t same)

@@ -89,22 +89,15 @@ Record solution_record(const StepReport<dim> &step)
           {"energy_norm", step.energies.norm}};
 }
 
-/** In the plane, where it has one direction. */
-Value tangential_resultant(const std::vector<ContactState<2>> &contact)
-{
-  return resultant<2>(contact, [](const auto &state) { return state.friction_resultant; });
-}
-
-Value tangential_resultant(const std::vector<ContactState<3>> &)
-{
-  return {};
-}
-
 /** Contact, and errors where they are known. */
 template <int dim>
 Record contact_record(const StepReport<dim> &step)
 {
-  return {{"friction_resultant", tangential_resultant(step.contact)},
+  Value friction; // in the plane, where it has one direction
+  if constexpr (dim == 2)
+    friction =
+        resultant<2>(step.contact, [](const auto &state) { return state.friction_resultant; });
+  return {{"friction_resultant", friction},
           {"error_energy", step.errors.energy},
           {"error_relative", step.errors.energy / step.errors.energy_norm},
           {"error_l2", step.errors.l2},
@@ -264,6 +257,19 @@ Record loading_record(const StepReport<dim> &step)
   return record;
 }
 
+unsigned int whole_number(const Value &field)
+{
+  if (const std::uint64_t *const number = std::get_if<std::uint64_t>(&field);
+      number && *number <= std::numeric_limits<unsigned int>::max())
+    return *number;
+  throw InputError("a table has " + printable(text(field)) + " in the place of a whole number");
+}
+
+/** N of the column "pN", or 0. */
+unsigned int degree_of(const std::string &column)
+{
+  return column.size() > 1 && column[0] == 'p' ? whole_number(value_from(column.substr(1))) : 0;
+}
 } // namespace
 
 std::vector<Record> cycle_rows(const std::vector<LoadCycle> &cycles)
@@ -288,23 +294,6 @@ void Tables<dim>::add(const StepReport<dim> &step)
   if (step.load.number > 0 && !step.stopped_by.empty())
     loading.add({loading_record(step)});
 }
-
-namespace
-{
-unsigned int whole_number(const Value &field)
-{
-  if (const std::uint64_t *const number = std::get_if<std::uint64_t>(&field);
-      number && *number <= std::numeric_limits<unsigned int>::max())
-    return *number;
-  throw InputError("a table has " + printable(text(field)) + " in the place of a whole number");
-}
-
-/** N of the column "pN", or 0. */
-unsigned int degree_of(const std::string &column)
-{
-  return column.size() > 1 && column[0] == 'p' ? whole_number(value_from(column.substr(1))) : 0;
-}
-} // namespace
 
 template <int dim>
 std::vector<Record>
