@@ -142,10 +142,10 @@ private:
 
 /** Which faces are in the pair, as a function that is positive there, and the distance to what is opposite. */
 void place_pair(SpacePair &pair, const unsigned int k, const SideFaces &own,
-                const FacingFaces &facing, const double closed, const bool touches)
+                const SidesFacing &facing, const double closed, const bool touches)
 {
   const auto finder = std::make_shared<const FaceFinder>(own.all);
-  std::vector<FacingFaces::Face> opposite(own.all.size());
+  std::vector<SidesFacing::Face> opposite(own.all.size());
   for (unsigned int f = 0; f < own.number.size(); ++f)
     opposite[own.number[f]] = facing.faces[f];
   pair.where[k] =
@@ -160,7 +160,7 @@ void place_pair(SpacePair &pair, const unsigned int k, const SideFaces &own,
                                  expression<3>(std::function<double(const Point<3> &)>(
                                      [finder, opposite](const Point<3> &x)
                                      {
-                                       const FacingFaces::Face &face = opposite[finder->face_at(x)];
+                                       const SidesFacing::Face &face = opposite[finder->face_at(x)];
                                        return face.slope * (x - face.at);
                                      })));
 }
@@ -209,14 +209,14 @@ void match_faces(const Parameters &parameters, const std::vector<Scene<3>> &sing
                                singles[pair.bodies[1]].geometry.diameter()),
                hair = same_place * size;
   const std::array<SideFaces, 2> sides{{faces_of(pair, 0, singles), faces_of(pair, 1, singles)}};
-  const std::array<FacingFaces, 2> facing{{facing_faces(sides[0].named, sides[1].named, hair),
+  const std::array<SidesFacing, 2> facing{{facing_faces(sides[0].named, sides[1].named, hair),
                                            facing_faces(sides[1].named, sides[0].named, hair)}};
   if (!facing[0].any() || !facing[1].any())
     parameters.reject(pair.section, "Between",
                       std::string("names sides that ") +
                           (facing[0].look_at_each_other ? "lie beside" : "do not face") +
                           " each other; name two that lie opposite");
-  for (const FacingFaces &one : facing)
+  for (const SidesFacing &one : facing)
     if (one.step)
       parameters.reject(pair.section, "Between",
                         "names sides of which one has a step or an edge opposite to a face of the "

@@ -147,7 +147,7 @@ std::vector<BareJoint<3>> touching_sides(const Scene<3> &scene, const double wit
           sides[other.id].pieces.empty() ||
           scene.geometry.body_of_side(one.side) >= scene.geometry.body_of_side(other.side))
         continue;
-      const FacingFaces facing = facing_faces(sides[one.id].pieces, sides[other.id].pieces, hair);
+      const SidesFacing facing = facing_faces(sides[one.id].pieces, sides[other.id].pieces, hair);
       if (facing.any() && std::abs(facing.least) <= near)
         result.push_back({{{called(scene, one), called(scene, other)}}, facing.at_least});
     }

@@ -131,13 +131,13 @@ const FacesAcross &FacesFromAll::across(const ContactAxes<3> &axes) const
   return *known.back();
 }
 
-bool FacingFaces::any() const
+bool SidesFacing::any() const
 {
   return std::any_of(faces.begin(), faces.end(),
                      [](const Face &face) { return face.covered > uncovered_share; });
 }
 
-bool FacingFaces::are_covered() const
+bool SidesFacing::are_covered() const
 {
   return std::all_of(faces.begin(), faces.end(),
                      [](const Face &face) {
@@ -146,17 +146,17 @@ bool FacingFaces::are_covered() const
                      });
 }
 
-FacingFaces facing_faces(const std::vector<Side<3>::Piece> &own,
+SidesFacing facing_faces(const std::vector<Side<3>::Piece> &own,
                          const std::vector<Side<3>::Piece> &other, const double hair)
 {
   const FacesFromAll others(other);
-  FacingFaces result;
+  SidesFacing result;
   result.least = std::numeric_limits<double>::max();
   result.largest = std::numeric_limits<double>::lowest();
   for (const Side<3>::Piece &face : own)
   {
     result.faces.emplace_back();
-    FacingFaces::Face &facing = result.faces.back();
+    SidesFacing::Face &facing = result.faces.back();
     const Tensor<1, 3> n = normal_of(face);
     const FacesAcross &view = others.across(contact_axes(n));
     for (unsigned int f = 0; f < other.size(); ++f)

@@ -85,7 +85,7 @@ private:
 };
 
 /** What lies opposite to the faces of one side in space on another side, along the normal of each face. */
-struct FacingFaces
+struct SidesFacing
 {
   struct Face
   {
@@ -108,7 +108,7 @@ struct FacingFaces
 };
 
 /** Planes count as one to @p hair [length]. */
-FacingFaces facing_faces(const std::vector<Side<3>::Piece> &own,
+SidesFacing facing_faces(const std::vector<Side<3>::Piece> &own,
                          const std::vector<Side<3>::Piece> &other, double hair);
 } // namespace hpvi
 
