@@ -115,17 +115,21 @@ Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
   Tensor<2, dim> J;
   for (unsigned int j = 0; j < dim; ++j)
   {
-    std::array<unsigned int, dim> order{};
-    order[j] = 1;
-    for (unsigned int v = 1; v < corners.size(); ++v)
-    {
-      const double slope = vertex_shape<dim>(v, reference, order);
-      for (unsigned int i = 0; i < dim; ++i)
-        J[i][j] += slope * (corners[v][i] - corners[0][i]);
-    }
+    for (unsigned int v = 0; v < corners.size(); ++v)
+      if (const unsigned int end = v | 1u << j; end != v) // an edge along axis j
+      {
+        double weight = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != j)
+            weight *= v >> d & 1u ? reference[d] : 1 - reference[d];
+        for (unsigned int i = 0; i < dim; ++i)
+          J[i][j] += weight * (corners[end][i] - corners[v][i]);
+      }
     if constexpr (dim == 2)
       if (curved)
       {
+        std::array<unsigned int, dim> order{};
+        order[j] = 1;
         const Tensor<1, dim> column = departure(*curved, reference, order);
         for (unsigned int i = 0; i < dim; ++i)
           J[i][j] += column[i];
