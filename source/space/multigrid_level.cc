@@ -42,10 +42,8 @@ MultigridLevel<Number>::MultigridLevel(const PrimalSpace<3> &space)
   for (const unsigned int i : cells->constrained())
     if (i < space.owned.n_elements())
       constrained.push_back(i);
-  const BoxStiffness<3> stiffness(space);
   if constexpr (std::is_same_v<Number, float>) // smoothers have no more digits
-    find_diagonal(stiffness);
-  find_blocks(stiffness);
+    find_entries(BoxStiffness<3>(space));
 }
 
 template <typename Number>
@@ -57,9 +55,10 @@ void MultigridLevel<Number>::reinit(Vector &v) const
 // Of a cell with hanging nodes an unknown J has `sum_ij w_iJ K_ij w_jJ`, over all nodes that depend on it; else K_JJ, if it
 // is not prescribed.
 template <typename Number>
-void MultigridLevel<Number>::find_diagonal(const BoxStiffness<3> &stiffness)
+void MultigridLevel<Number>::find_entries(const BoxStiffness<3> &stiffness)
 {
   reinit(inverse_diagonal);
+  blocks.resize(space.contact.size());
   std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
   const auto resolve = [&](const unsigned int i, const auto &take)
   { ContactDofTransform<Number>::resolve(space, inverse_diagonal, dofs[i], take); };
@@ -73,6 +72,10 @@ void MultigridLevel<Number>::find_diagonal(const BoxStiffness<3> &stiffness)
   {
     if (!cell->is_locally_owned())
       continue;
+    const bool has_moments = any(space.moment_components(cell));
+    const FullMatrix<double> *const in_moments = has_moments ? &stiffness(cell) : nullptr;
+    if (has_moments)
+      set_blocks(cell, *in_moments);
     if (has_opposite(space, cell))
     {
       add_diagonal(cell, stiffness.nodal(cell), far);
@@ -82,17 +85,16 @@ void MultigridLevel<Number>::find_diagonal(const BoxStiffness<3> &stiffness)
     if (std::none_of(dofs.begin(), dofs.end(), hangs))
     {
       std::vector<double> diagonal;
-      if (!any(space.moment_components(cell)))
+      if (!has_moments)
         diagonal = stiffness.diagonal(cell);
-      else
-        for (const FullMatrix<double> &K = stiffness(cell); diagonal.size() < dofs.size();)
-          diagonal.push_back(K(diagonal.size(), diagonal.size()));
+      while (diagonal.size() < dofs.size())
+        diagonal.push_back((*in_moments)(diagonal.size(), diagonal.size()));
       for (unsigned int i = 0; i < dofs.size(); ++i)
         resolve(i, [&](const unsigned int local, double)
                 { inverse_diagonal.local_element(local) += diagonal[i]; });
       continue;
     }
-    const FullMatrix<double> &K = stiffness(cell);
+    const FullMatrix<double> &K = has_moments ? *in_moments : stiffness(cell);
     std::map<unsigned int, std::vector<std::pair<unsigned int, double>>> shares;
     for (unsigned int i = 0; i < dofs.size(); ++i)
       resolve(i, [&](const unsigned int local, const double weight)
@@ -132,12 +134,15 @@ void MultigridLevel<Number>::add_diagonal(const PrimalSpace<3>::Cell &cell,
 
 /** Contact dofs belong to one cell. */
 template <typename Number>
-void MultigridLevel<Number>::find_blocks(const BoxStiffness<3> &stiffness)
+void MultigridLevel<Number>::set_blocks(const PrimalSpace<3>::Cell &cell,
+                                        const FullMatrix<double> &K)
 {
-  blocks.resize(space.contact.size());
-  for (const ContactDofFace<3> &face : space.faces)
+  for (const unsigned int number_of_face : cell->face_indices())
   {
-    const FullMatrix<double> &K = stiffness(face.cell);
+    const ContactDofFace<3> *const own = space.moment_face(cell, number_of_face);
+    if (!own)
+      continue;
+    const ContactDofFace<3> &face = *own;
     const auto number = [&](const unsigned int k, const unsigned int axis)
     { return space.tables.numbers[space.tables.inner[face.face][k]][axis]; };
     for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)

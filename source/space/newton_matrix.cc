@@ -55,7 +55,7 @@ void NewtonMatrix<dim>::begin()
     if (method == LinearMethod::multigrid)
     {
       multigrid = std::make_unique<Multigrid>(space);
-      blocks = multigrid->finest.blocks;
+      blocks = multigrid->blocks();
       setup_seconds += timer.wall_time();
       return;
     }

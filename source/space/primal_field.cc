@@ -255,8 +255,12 @@ template <int dim>
 double PrimalField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &reference) const
 {
   const FrictionLaw<dim> &law = face.condition->friction;
-  return law.limit(face.map.point(reference),
-                   law.knows_pressure() ? traction(face, reference).pressure : 0.);
+  const ContactDofFace<dim> *const own = contact_dof_faces[face.number];
+  double pressure = 0;
+  for (unsigned int k = 0;
+       law.knows_pressure() && own && own->has_pressure() && k < space.tables.n_contact_dofs(); ++k)
+    pressure += space.tables.psi(k, face.face_no, reference) * (*lambda)[own->pressure + k][0];
+  return law.limit(face.map.point(reference), pressure);
 }
 
 template <int dim>

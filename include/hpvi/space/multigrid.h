@@ -31,6 +31,12 @@ public:
   void linearise(const std::vector<ContactDofState<3>> &states);                    ///< collective
   void precondition(DistributedVector &z, const DistributedVector &r) const;        ///< one V-cycle
 
+  /** Of A at contact dofs. */
+  const std::vector<MultigridLevel<float>::Block> &blocks() const
+  {
+    return levels.back().matrix->blocks;
+  }
+
   MultigridLevel<double> finest; ///< A, to which conjugate gradients are exact
 
 private:

@@ -54,10 +54,10 @@ public:
   }
 
 private:
-  void find_diagonal(const BoxStiffness<3> &stiffness);
+  void find_entries(const BoxStiffness<3> &stiffness);
   void add_diagonal(const PrimalSpace<3>::Cell &cell, const dealii::FullMatrix<double> &K,
                     std::vector<Number> &far);
-  void find_blocks(const BoxStiffness<3> &stiffness);
+  void set_blocks(const PrimalSpace<3>::Cell &cell, const dealii::FullMatrix<double> &K);
 
   dealii::AffineConstraints<Number> constraints; ///< as of the space, in its own numbers
   std::unique_ptr<CellOperator<Number>> cells;
