@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside GetFEM, the growth of
 iterations and memory up to a million unknowns, speed-up, where the primal path overtakes the reduced one in the plane, what Coulomb's
-law takes, and coarse meshes of many cells. Tables go to doc/space, and into doc/space.md between its marker comments. Runs that are there
+law takes, coarse meshes of many cells, and the guaranteed bound. Tables go to doc/space, and into doc/space.md between its marker comments. Runs that are there
 already are not repeated; --without million leaves some out; --large measures ten and thirty million unknowns instead, which wants 24 GB
 that are free; --draw runs nothing, and draws the charts and writes the page from the tables of doc/space."""
 import argparse
@@ -27,7 +27,7 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=80000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts"])
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts", "bound"])
 parser.add_argument("--large", action="store_true", help="ten and thirty million unknowns, and the speed-up at millions; nothing else")
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
@@ -61,7 +61,7 @@ def run(name, scene="prm/slab.prm", processes=1, **settings):
     directory = OUTPUT / name
     times = OUTPUT / f"{name}.json"
     if not times.exists():
-        overrides = [word for key, value in {"Output/VTU": "false", **settings}.items()
+        overrides = [word for key, value in {"Output/VTU": "false", "Error/Bound": "false", **settings}.items()
                      for word in ("--set", f"{key}={value}")]
         start = [] if processes == 1 else ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(processes)]
         cost = measured([*start, options.program, "--output", str(directory), scene, *overrides])
@@ -243,6 +243,31 @@ def parts():
     write("parts.csv", ["part", "mesh_size", "degree", "cells", "dofs_free", "newton_steps", "newton_cg", "wall_seconds_1", "wall_seconds_2", "step_seconds_1", "step_seconds_2", "difference"], table)
 
 
+CUBE = {"Geometry/Upper corner": "1, 1, 1", "Geometry/Subdivisions": "2, 2, 2", "Material/Young's modulus": 1, "Boundary left/Traction": "",
+        "Boundary right/Displacement": "", "Boundary left/Symmetry": "true", "Boundary back/Displacement": "0; 0; 0",
+        "Boundary top/Traction": "0.05; -0.3*(1 + x^2); 0.1", "Body force/Expression": "0.1*x*y; 0; -0.3*exp(x)", "Boundary bottom/Friction bound": ""}
+PRESSED = {"Boundary bottom/Contact": "unilateral", "Boundary bottom/Gap": "0.01 + 0.3*(x - 0.4)^2"}
+FREE = {"Boundary bottom/Contact": "none", "Adaptivity/Method": "hup3"}
+BOUNDED = [("slab", "prm/slab.prm", {}), ("slab, one end a hundred times as stiff", "prm/slab.prm",
+                                          {"Material stiff/Where": "2 - x", "Material stiff/Young's modulus": 1500, "Material stiff/Poisson's ratio": 0.3}),
+           ("dome", "prm/dome.prm", {}), ("cube on a curved floor", "prm/slab.prm", {**CUBE, **PRESSED}), ("cube, no contact, p = 3", "prm/slab.prm", {**CUBE, **FREE})]
+
+
+def bound():
+    """The guaranteed bound of the last step beside the least J of a finer run; sqrt(2 (J(u_N) - J)) is at least the error where u_N is admissible."""
+    table = []
+    for name, scene, entries in BOUNDED:
+        stem = f"bound-{re.sub('[^a-z]+', '-', name)}"
+        J = run(f"{stem}-fine", scene, **{**entries, "Adaptivity/Method": "hap3", "Adaptivity/Maximum steps": 99, "Adaptivity/Maximum unknowns": 150000})[-1]["energy"]
+        for limit in (3000, 12000):
+            last = run(f"{stem}-{limit}", scene, **{"Error/Bound": "last step", "Adaptivity/Maximum steps": 99, **entries, "Adaptivity/Maximum unknowns": limit})[-1]
+            error = max(0, 2 * (last["energy"] - J)) ** 0.5 if "floor" not in name and name != "dome" else float("nan")
+            table.append([name, int(last["dofs_free"]), last["error_bound_relative"], last["error_bound"] / error, last["energy_low"], last["energy_high"], J,
+                          last["seconds_bound"], last["seconds"] - last["seconds_bound"]])
+            print(*table[-1], flush=True)
+    write("bound.csv", ["scene", "dofs_free", "bound", "over_error", "energy_low", "energy_high", "energy_fine", "bound_seconds", "step_seconds"], table)
+
+
 def crossover():
     """Example 5.2 with one row of elements: CPU seconds of a run, best of some, reading the scene included; the wall seconds
     of the primal path over those of its factorisations, in the run where that is least."""
@@ -331,6 +356,10 @@ PAGE = {
     "parts": ("part | degree | cells | free unknowns | Newton steps | conjugate-gradient steps | seconds of a run | on two processes | of its step | on two processes", lambda row: [
         row["part"], row["degree"], count(row["cells"]), count(row["dofs_free"]), row["newton_steps"], row["newton_cg"],
         *(row[f"{what}_seconds_{n}"] for what in ("wall", "step") for n in (1, 2))]),
+    "bound": ("scene | free unknowns | bound | over what J says of the error | interval of J | J of a finer run | seconds of the bound | of the rest of its step",
+              lambda row: [row["scene"], count(row["dofs_free"]), f"{float(row['bound']):.2g}", "" if row["over_error"] == "nan" else f"{float(row['over_error']):.2f}",
+                           f"{float(row['energy_low']):.5g} to {float(row['energy_high']):.5g}", f"{float(row['energy_fine']):.6g}",
+                           *(f"{float(row[what]):.2f}" for what in ("bound_seconds", "step_seconds"))]),
     "million": ("free unknowns | multipliers | Newton steps | conjugate-gradient steps | slipping discs | J (Lagrangian) | peak memory of both, bytes",
                 lambda row: [*(count(row[name]) for name in ("dofs_free", "multipliers", "newton_steps", "newton_cg", "slipping")),
                              f"{float(row['lagrangian']):.6f}", f"{float(row['peak_memory']):.2e}"]),
@@ -369,7 +398,7 @@ if options.draw:
     draw_crossover()
     draw_coulomb()
     draw_coarse()
-for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts):
+for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts, bound):
     if not options.draw and part.__name__ not in options.without:
         part()
 write_page()

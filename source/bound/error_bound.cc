@@ -112,15 +112,7 @@ void set_norms(ErrorBound &result, const EquilibratedStress &stress, const Conta
   result.data = data.lift;
   const double b = distance_from_admissible(contact, data),
                A = stress_and_oscillation(stress, data);
-  const auto root = [&](const double lambda)
-  {
-    const double nu = 1 - lambda, half = nu * lambda * b, rest = 1 - nu * nu;
-    return (half +
-            std::sqrt(half * half + rest * (A * A + 2 * lambda * gap + lambda * lambda * b * b))) /
-           rest;
-  };
-  result.total =
-      std::min(root(1.), boost::math::tools::brent_find_minima(root, 1e-3, 1., 20).second);
+  result.total = least_root(A, gap, b);
 }
 
 /** Of the stress between sigma(u_N) and s that is nearest to that of the solution; doc/bound.md has the proof. */
@@ -451,6 +443,18 @@ ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
       result.flaw = flaw_of_correction(solution, *correction);
   result.correction = std::move(corrections[0]);
   return result;
+}
+
+double least_root(const double A, const double gap, const double b)
+{
+  const auto root = [&](const double lambda)
+  {
+    const double nu = 1 - lambda, half = nu * lambda * b, rest = 1 - nu * nu;
+    return (half +
+            std::sqrt(half * half + rest * (A * A + 2 * lambda * gap + lambda * lambda * b * b))) /
+           rest;
+  };
+  return std::min(root(1.), boost::math::tools::brent_find_minima(root, 1e-3, 1., 20).second);
 }
 
 ErrorBound ErrorBounds::compute(const Solution<2> &measured,

@@ -95,7 +95,6 @@ void take_bound(const BoundOfStep &bound, StepReport<dim> &step, PastStep<dim> &
 {
   step.bound = bound.bound;
   step.no_bound = bound.missing;
-  step.energy_high = bound.energy_high;
   step.bound_imbalance = bound.imbalance;
   if (bound.bound)
   {
@@ -301,7 +300,7 @@ void AdaptiveSolver<dim>::estimate_error()
 template <int dim>
 bool AdaptiveSolver<dim>::has_late_bound() const
 {
-  return scene.error_bound && scene.error_bound_last && backend->reduced();
+  return scene.error_bound && scene.error_bound_last && (dim == 3 || backend->reduced());
 }
 
 /** Asked for the last step, or where it may make this one the last. */
@@ -551,6 +550,7 @@ StepReport<dim> AdaptiveSolver<dim>::report()
   step.contact = std::move(contact);
   step.extrema = past.extrema;
   add_results(step);
+  step.energy_high = backend->energy_high();
   add_bound(step);
   return step;
 }

@@ -94,6 +94,12 @@ std::optional<ReducedPart<dim>> Backend<dim>::reduced() const
 }
 
 template <int dim>
+double Backend<dim>::energy_high()
+{
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+template <int dim>
 std::optional<PrimalPart<dim>> Backend<dim>::primal() const
 {
   return std::nullopt;

@@ -7,9 +7,11 @@
 #include <hpvi/base/text.h>
 #include <hpvi/driver/primal_backend.h>
 #include <hpvi/plane/global_cell_indices.h>
+#include <hpvi/plane/matching.h>
 #include <hpvi/plane/mesh.h>
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/scene_entries.h>
+#include <hpvi/space/box_bound.h>
 #include <hpvi/space/contact_statics.h>
 #include <hpvi/space/load_check.h>
 #include <hpvi/space/newton_matrix.h>
@@ -334,11 +336,39 @@ std::optional<PrimalPart<dim>> PrimalBackend<dim>::primal() const
 }
 
 template <int dim>
+double PrimalBackend<dim>::energy_high()
+{
+  return upper_energy(*space, u, energies(), system->work(u));
+}
+
+template <int dim>
 BoundOfStep PrimalBackend<dim>::bound(double)
 {
-  return {std::nullopt, "the primal path has no guaranteed bound of the error",
-          std::numeric_limits<double>::quiet_NaN(),
-          upper_energy(*space, u, energies(), system->work(u))};
+  BoundOfStep result;
+  if constexpr (dim == 2)
+    result.missing = "the primal path has no guaranteed bound of the error in the plane";
+  else
+  {
+    result.missing = scene.error_bound ? no_error_bound(scene) : "Error/Bound = false";
+    if (result.missing.empty())
+      result.missing = no_box_bound(*space, u);
+    if (!result.missing.empty())
+      return result;
+    begin("bounding the error of " + std::to_string(mesh->n_global_active_cells()) + " elements");
+    StageTimer timer(times.bound);
+    NewtonMatrix<dim> matrix(*space, *system, given_way.value_or(linear_method(*space)));
+    const ErrorBound bound = box_bound(*space, matrix, u, lambda, system->work(u));
+    result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
+    result.imbalance = bound.imbalance;
+    if (result.missing.empty() && bound.kind == BoundKind::estimate)
+    {
+      result.missing = bound.why;
+      result.estimate = bound;
+    }
+    else if (result.missing.empty())
+      result.bound = bound;
+  }
+  return result;
 }
 
 /** One degree stays: nobody asks. */

@@ -131,9 +131,6 @@ const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
 template <int dim>
 std::string no_error_bound(const Scene<dim> &scene)
 {
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (dim == 3 && boundary.has_contact() && boundary.friction.knows_pressure())
-      return boundary.friction.name() + " minimises no energy";
   if (scene.adaptivity.start_degree < 2)
     return "cells have degree 1";
   if (const BoundaryCondition<dim> *const curved = curved_contact(scene))

@@ -33,7 +33,7 @@ namespace
 template <int dim>
 bool has_bound_column(const Scene<dim> &scene, const bool is_primal)
 {
-  return !is_primal && scene.error_bound &&
+  return (!is_primal || (dim == 3 && !scene.has_coulomb_friction())) && scene.error_bound &&
          (scene.has_load_history() || no_error_bound(scene).empty());
 }
 
@@ -119,7 +119,7 @@ std::string missing_bound_in_words(const StepReport<dim> &step, const std::strin
   const bool is_in_its_place = limits.tolerance > 0 && limits.tolerance_on == Indicator::bound &&
                                limits.tolerance_column.empty() &&
                                step.stopped_by.stop != Stop::round_off,
-             is_wanted = step.scene.error_bound && !step.primal;
+             is_wanted = step.scene.error_bound && (!step.primal || dim == 3);
   if (step.bound || step.no_bound.empty() || !(is_wanted || is_in_its_place))
     return {};
   const bool has_none = step.load.number == 0 && !no_error_bound(step.scene).empty();

@@ -189,8 +189,8 @@ std::vector<Alias> hints_in_space()
           {{"threads"},
            "a body in space has one thread of each process; start several, mpirun -np N hpvi, and "
            "remove it"},
-          {{"bound", "bound on distorted cells"},
-           "space has no guaranteed bound of the error, but an indicator; remove it"}};
+          {{"bound on distorted cells"},
+           "cells of space that are no boxes have no guaranteed bound of the error; remove it"}};
 }
 } // namespace
 

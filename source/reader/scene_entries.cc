@@ -292,7 +292,7 @@ bool is_of_the_plane(const Entry &entry)
           (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
            entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||
            entry.name == "Threads")) ||
-         (entry.section == "Error" && entry.name.rfind("Bound", 0) == 0);
+         (entry.section == "Error" && entry.name == "Bound on distorted cells");
 }
 
 /** The same entries for a body in space: points of three components, a method that it offers. */
@@ -320,6 +320,16 @@ void take_to_space(std::vector<Entry> &entries)
          Patterns::Selection(joined(normal_contact_names, "|")), "automatic or multiplier");
   change("Adaptivity/Method", "hap2", Patterns::Selection(joined(method_names, "|")),
          "hup2, hup3, hup4, hap2, hap3 or hap4");
+  for (Entry &entry : entries)
+    if (entry.path() == "Error/Bound")
+    {
+      entry.default_value = "last step";
+      entry.documentation =
+          "Compute the guaranteed bound of the error (doc/space.md) of each step, or of the last "
+          "one alone: of one body of boxes that supports hold, on one process. Under Coulomb's law "
+          "it is an estimate. A file that does not name it has false for mesh files and several "
+          "bodies.";
+    }
 }
 } // namespace
 

@@ -343,6 +343,13 @@ void choose_bound(const Parameters &parameters, Scene<2> &scene)
     scene.adaptivity.indicator = Indicator::residual;
 }
 
+/** None by default but of one body of boxes. */
+void choose_bound(const Parameters &parameters, Scene<3> &scene)
+{
+  if (!parameters.is_named("Error", "Bound"))
+    scene.error_bound = !scene.geometry.has_mesh() && scene.geometry.bodies.empty();
+}
+
 /** All but the load history; @p t is its time, if there is one. */
 template <int dim>
 Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, const UserNames &names,
@@ -376,8 +383,7 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   read_probes(*parameters, names.probes, scene);
   scene.reference_solution = parameters->text("Error", "Reference solution");
   remark_on_pictures(*parameters, scene);
-  if constexpr (dim == 2)
-    choose_bound(*parameters, scene);
+  choose_bound(*parameters, scene);
   return scene;
 }
 
@@ -499,7 +505,9 @@ Scene<dim> read_scene(const ParameterFile &given, const SceneUse use,
   Scene<dim> scene = loading.at ? loading.at(loading.time(1))
                                 : read_problem<dim>(parameters, names, name, std::nullopt);
   settle_normal_contact(*parameters, scene);
-  if (scene.error_bound_last)
+  if (!scene.error_bound)
+    parameters->set("Error", "Bound", "false");
+  else if (scene.error_bound_last)
     parameters->set("Error", "Bound", "last step");
   if (scene.error_bound_last && !parameters->is_named("Adaptivity", "Indicator"))
     parameters->set("Adaptivity", "Indicator", "residual");

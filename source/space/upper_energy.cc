@@ -38,6 +38,7 @@ double missed_on(const typename PrimalSpace<dim>::Cell &cell, const unsigned int
   }
   return largest;
 }
+} // namespace
 
 template <int dim>
 double missed_displacement(const PrimalSpace<dim> &space, const DistributedVector &u)
@@ -54,7 +55,6 @@ double missed_displacement(const PrimalSpace<dim> &space, const DistributedVecto
                });
   return Utilities::MPI::max(largest, space.communicator());
 }
-} // namespace
 
 template <int dim>
 double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
@@ -70,6 +70,8 @@ double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
   return difference > 1e-3 * std::abs(finer) ? none : energies.energy + work - finer + difference;
 }
 
+template double missed_displacement(const PrimalSpace<2> &, const DistributedVector &);
+template double missed_displacement(const PrimalSpace<3> &, const DistributedVector &);
 template double upper_energy(const PrimalSpace<2> &, const DistributedVector &, const Energies &,
                              double);
 template double upper_energy(const PrimalSpace<3> &, const DistributedVector &, const Energies &,

@@ -124,8 +124,8 @@ done
 invalid "Solver/Threads = 2" "mpirun -np N hpvi" "remove it" -- "Solver/Threads=2"
 invalid "Boundary foot/Where" "inside a face" "grid line" -- "Boundary foot/On=top" "Boundary foot/Where=x^2 + z^2 - 0.5"
 invalid "Material soft/Where" "inside a cell" -- "Material soft/Where=x^2 + y^2 + z^2 - 0.5"
-invalid "Error/Bound = true" "no guaranteed bound" "remove it" -- "Error/Bound=true"
-invalid "Bound on distorted cells" "no guaranteed bound" -- "Error/Bound on distorted cells=false"
+invalid "Error/Bound = first" "true, false or last step" -- "Error/Bound=first"
+invalid "Bound on distorted cells" "no guaranteed bound" "remove it" -- "Error/Bound on distorted cells=false"
 invalid "Exact solution" "unknown subsection" "no closed form" -- "Exact solution/Solution=smooth"
 
 # --- hexahedra from a file

@@ -78,4 +78,96 @@ TEST(UpperEnergy, IsOpenElsewhere)
   EXPECT_FALSE(std::isnan(
       upper_ends(slab({{"Boundary right/Displacement", "0.01*y*(4 - y); 0; 0"}, once[0]})).at(0)));
 }
+
+/** A cube on a curved foundation, with loads that are no polynomials. */
+Scene<3> cube(const Overrides &entries)
+{
+  return slab({{"Geometry/Upper corner", "1, 1, 1"},
+               {"Geometry/Subdivisions", "2, 2, 2"},
+               {"Material/Young's modulus", "1"},
+               {"Boundary left/Traction", ""},
+               {"Boundary right/Displacement", ""},
+               {"Boundary left/Symmetry", "true"},
+               {"Boundary back/Displacement", "0; 0; 0"},
+               {"Boundary top/Traction", "0.05; -0.3*(1 + x^2); 0.1"},
+               {"Body force/Expression", "0.1*x*y; 0; -0.3*exp(x)"},
+               {"Boundary bottom/Friction bound", ""},
+               {"Boundary bottom/Contact", "unilateral"},
+               {"Boundary bottom/Gap", "0.01 + 0.3*(x - 0.4)^2"},
+               entries});
+}
+
+Scene<3> dome(const Overrides &entries)
+{
+  return read_scene<3>("prm/dome.prm", entries);
+}
+
+struct BoundCase
+{
+  const char *name;
+  Scene<3> (*scene)(const Overrides &);
+  Overrides entries;
+  double widest; ///< of the bound, relative to |u_N|_a
+};
+
+/** J of a far finer mesh lies in the interval of each step; the bound is above what J says of the error, and at most twice as much as it says at most. */
+TEST(BoxBound, HoldsOfFinerMeshes)
+{
+  const std::vector<BoundCase> cases{
+      {"slab", [](const Overrides &entries) { return slab(entries); }, {}, 0.15},
+      {"dome", dome, {}, 0.3},
+      {"cube", cube, {{"Adaptivity/Start degree", "3"}}, 0.25},
+      {"without contact",
+       cube,
+       {{"Boundary bottom/Contact", "none"}, {"Boundary bottom/Gap", ""}},
+       0.25}};
+  for (const BoundCase &one : cases)
+  {
+    double J = 0;
+    Overrides finer{given::steps("hap3", "3")}, coarse{given::steps("hap2", "2")};
+    for (Overrides *const of_run : {&finer, &coarse})
+      of_run->insert(of_run->begin(), one.entries.begin(), one.entries.end());
+    coarse.emplace_back("Error/Bound", "true");
+    steps_of<3>(one.scene(finer), [&](const StepReport<3> &step) { J = step.energies.energy; });
+    const bool is_linear = one.name == std::string("without contact");
+    double last = 0;
+    steps_of<3>(one.scene(coarse),
+                [&](const StepReport<3> &step)
+                {
+                  ASSERT_TRUE(step.bound) << one.name << ": " << step.no_bound;
+                  const ErrorBound &bound = *step.bound;
+                  EXPECT_LT(bound.imbalance, 1e-9) << one.name;
+                  EXPECT_LT(step.energies.energy - bound.energy_below, J) << one.name;
+                  EXPECT_GT(step.energies.energy + bound.energy_above, J) << one.name;
+                  if (is_linear)
+                  {
+                    const double error = std::sqrt(2 * (step.energies.energy - J));
+                    EXPECT_GT(bound.total, error);
+                    EXPECT_LT(bound.total, 2 * error);
+                  }
+                  last = step.relative_bound;
+                });
+    EXPECT_LT(last, one.widest) << one.name;
+  }
+}
+
+TEST(BoxBound, SaysWhyThereIsNone)
+{
+  const std::vector<std::pair<Overrides, std::string>> cases{
+      {{given::coulomb("0.3")}, "contact that does not open"},
+      {{given::coulomb("0.3"), {"Boundary bottom/Contact", "unilateral"}}, "coupling"},
+      {{{"Boundary right/Displacement", "0.01*sin(y); 0; 0"}}, "no polynomials"},
+      {{{"Error/Bound", "false"}}, "Error/Bound = false"}};
+  for (const auto &[entries, why] : cases)
+  {
+    Overrides all{{"Error/Bound", "true"}, given::steps("hup2", "1")};
+    all.insert(all.end(), entries.begin(), entries.end());
+    steps_of<3>(slab(all),
+                [&](const StepReport<3> &step)
+                {
+                  EXPECT_FALSE(step.bound);
+                  EXPECT_NE(step.no_bound.find(why), std::string::npos) << step.no_bound;
+                });
+  }
+}
 } // namespace

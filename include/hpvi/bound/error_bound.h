@@ -96,6 +96,9 @@ struct ErrorBound
   std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
 
+/** The least root E over lambda of what bounds the error, for the A, gap and b of ErrorBound. */
+double least_root(double A, double gap, double b);
+
 /** Computes the bounds of one scene step by step, with what it keeps between steps. */
 class ErrorBounds
 {

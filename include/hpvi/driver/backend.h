@@ -72,8 +72,6 @@ struct BoundOfStep
   std::string missing;             ///< why there is none
   /** ErrorBound::imbalance, also where that is why; NaN: not computed. */
   double imbalance = std::numeric_limits<double>::quiet_NaN();
-  /** Where the least J(u) is bounded from above alone, by this; NaN: it is not. */
-  double energy_high = std::numeric_limits<double>::quiet_NaN();
   std::optional<ErrorBound> estimate =
       std::nullopt; ///< of BoundKind::estimate, where there is no bound
 };
@@ -114,6 +112,9 @@ public:
   virtual NodalForces<dim> nodal_forces() = 0;             ///< of supports, contact and loads
   virtual std::optional<ReducedPart<dim>> reduced() const; ///< none on another path
   virtual std::optional<PrimalPart<dim>> primal() const;   ///< likewise
+
+  /** An upper end of the least J(u) that needs no bound of the error; NaN: none. Collective. */
+  virtual double energy_high();
 
   /** @p hysteresis: ErrorBound::hysteresis of the step before. */
   virtual BoundOfStep bound(double hysteresis) = 0;

@@ -29,7 +29,12 @@ public:
   Energies energies() override;
   NodalForces<dim> nodal_forces() override;
   std::optional<PrimalPart<dim>> primal() const override;
+  double energy_high() override;
   BoundOfStep bound(double hysteresis) override;
+  std::string bound_forces(const ErrorBound &, std::vector<Resultant<dim>> &) override
+  {
+    return "bodies in space have an interval of the energy alone";
+  }
   double decay_rate(unsigned int cell) const override;
   double round_off_estimate() const override;
   void mark_unresolved(Refinement &) const override

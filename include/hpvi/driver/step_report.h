@@ -33,7 +33,7 @@ struct StepReport
   EstimateNorms norms;             ///< of all cells
   std::optional<ErrorBound> bound; ///< none: not asked for, or not on offer
   std::string no_bound;            ///< why there is none
-  double energy_high;              ///< BoundOfStep::energy_high [stress length^dim]
+  double energy_high;              ///< Backend::energy_high() [stress length^dim]
   double bound_imbalance; ///< ErrorBound::imbalance, also where that is why; NaN: not computed
   const std::optional<ReducedPart<dim>> reduced; ///< of the reduced path
   const std::optional<PrimalPart<dim>> primal;   ///< of the primal path

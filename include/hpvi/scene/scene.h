@@ -244,7 +244,7 @@ struct Scene
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
-  bool error_bound = true;       ///< compute ErrorBound where there is one
+  bool error_bound = dim == 2;   ///< compute ErrorBound where there is one
   bool error_bound_last = false; ///< of the last step alone, and where the tolerance is near
   bool intervals = true;         ///< of forces and means, where there is an ErrorBound
   SolverSettings solver;

@@ -7,6 +7,10 @@
 
 namespace hpvi
 {
+/** By how much @p u misses prescribed displacements between their nodes at most [length]. Collective. */
+template <int dim>
+double missed_displacement(const PrimalSpace<dim> &space, const DistributedVector &u);
+
 /**
  * An upper end of the least J: `J(u_N)` where u_N is admissible, with the loads integrated by twice as many points and
  * raised by what both rules differ by. NaN where a law minimises no energy, where u_N may penetrate a foundation,
