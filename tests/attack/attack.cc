@@ -5,12 +5,13 @@
 // two meet, and for each force and mean displacement; so has either body of a pair. What is exact to round-off without a
 // warning is in the intervals of the reference. A scene in which this does not hold is kept beside its reference, to be repeated.
 // Under Coulomb's law no two steps may be farther apart than the sum of their bounds, for each holds for all solutions; none has an
-// energy, and a bound that assumes zones counts as none.
+// energy, and a bound that assumes zones counts as none. Boxes in space have an interval of the energy alone.
 //
 //     attack SECONDS SEED DIRECTORY       as many scenes as fit, of one kind after the other
 //     attack --scenes N SEED DIRECTORY    that many
 //     attack --scene K SEED DIRECTORY     one of them again
 //     attack --kind KIND ...              of one kind alone
+#include "box_scene.h"
 #include "curved_scene.h"
 #include "hidden_scene.h"
 #include "rough_scene.h"
@@ -68,10 +69,13 @@ struct Step
 };
 
 /** Forces and probes by name; both sides of a pair have the same resultants. */
-std::vector<std::pair<std::string, Measured>> numbers_of(const StepReport<2> &step)
+template <int dim>
+std::vector<std::pair<std::string, Measured>> numbers_of(const StepReport<dim> &step)
 {
   std::vector<std::pair<std::string, Measured>> result;
-  for (const Resultant<2> &row : step.forces)
+  if constexpr (dim == 3)
+    return result; // none has an interval
+  for (const Resultant<dim> &row : step.forces)
   {
     const auto &all = step.scene.boundaries;
     const auto pair = row.boundary < all.size() ? all[row.boundary].pair : std::nullopt;
@@ -82,15 +86,16 @@ std::vector<std::pair<std::string, Measured>> numbers_of(const StepReport<2> &st
                                  {"normal force on " + part, row.normal},
                                  {"friction on " + part, row.friction}});
   }
-  for (const ProbeValue<2> &probe : step.probes)
-    for (unsigned int c = 0; c < 2; ++c)
-      result.emplace_back("probe " + step.scene.probes[probe.probe].name + " " + "xy"[c],
+  for (const ProbeValue<dim> &probe : step.probes)
+    for (unsigned int c = 0; c < dim; ++c)
+      result.emplace_back("probe " + step.scene.probes[probe.probe].name + " " + "xyz"[c],
                           probe.displacement[c]);
   return result;
 }
 
 /** Beside the square of the norm, and of what round-off of a rigid motion strains, in the last step. */
-double round_off_of_energy(const StepReport<2> &step, const double floor)
+template <int dim>
+double round_off_of_energy(const StepReport<dim> &step, const double floor)
 {
   const double largest = step.largest_displacement.value; // NaN: not the last one
   return floor * std::pow(step.energies.norm, 2) +
@@ -98,13 +103,15 @@ double round_off_of_energy(const StepReport<2> &step, const double floor)
 }
 
 /** Has it a bound that assumes nothing of the solution? */
-bool is_known(const StepReport<2> &step)
+template <int dim>
+bool is_known(const StepReport<dim> &step)
 {
   return step.bound && step.bound->kind != BoundKind::zones;
 }
 
 /** What is guaranteed: without a bound no more than an energy above the least one. */
-Step guaranteed(const StepReport<2> &step)
+template <int dim>
+Step guaranteed(const StepReport<dim> &step)
 {
   Step result{"step " + std::to_string(step.number),
               step.energies.norm,
@@ -136,7 +143,8 @@ Step guaranteed(const StepReport<2> &step)
 }
 
 /** What is said of numbers that are exact to round-off. */
-Step exact(const StepReport<2> &step)
+template <int dim>
+Step exact(const StepReport<dim> &step)
 {
   const auto numbers = numbers_of(step);
   const double displacement = step.largest_displacement.value;
@@ -170,7 +178,8 @@ struct Run
 };
 
 /** Of steps before the last one: is said to have missed what acts? */
-bool takes_back(const StepReport<2> &step)
+template <int dim>
+bool takes_back(const StepReport<dim> &step)
 {
   return std::any_of(step.warnings.begin(), step.warnings.end(),
                      [](const Warning &warning) {
@@ -179,15 +188,16 @@ bool takes_back(const StepReport<2> &step)
 }
 
 /** @p finished is called with each step that has a bound. */
+template <int dim>
 Run solve(const std::string &file, const Overrides &overrides,
-          const std::function<void(const StepReport<2> &)> &finished = {})
+          const std::function<void(const StepReport<dim> &)> &finished = {})
 {
   Run run;
   try
   {
-    const Scene<2> scene = read_scene<2>(file, overrides);
-    AdaptiveSolver<2>(scene).run(
-        [&](const StepReport<2> &step)
+    const Scene<dim> scene = read_scene<dim>(file, overrides);
+    AdaptiveSolver<dim>(scene).run(
+        [&](const StepReport<dim> &step)
         {
           if (takes_back(step))
             run.steps.clear();
@@ -243,7 +253,7 @@ std::vector<std::string> all_kinds()
 {
   std::vector<std::string> result{"rough", "bodies", "unmatched", "curved", "turned"};
   result.insert(result.end(), attack::hidden_kinds.begin(), attack::hidden_kinds.end());
-  result.emplace_back("coulomb");
+  result.insert(result.end(), {"coulomb", "boxes"});
   return result;
 }
 
@@ -260,6 +270,11 @@ attack::DrawnScene draw(const std::string &kind, std::mt19937 &random)
     const std::string text =
         kind == "curved" ? attack::curved_scene(random) : attack::turned_scene(random);
     return {text, text, /*shares_mesh=*/false};
+  }
+  if (kind == "boxes")
+  {
+    const std::string text = attack::box_scene(random);
+    return {text, text, false};
   }
   const bool is_rough = kind == "rough" || kind == "coulomb";
   if (!is_rough && kind != "bodies" && kind != "unmatched")
@@ -318,22 +333,28 @@ const Overrides of_reference_run{{"Adaptivity/Method", "hpa3"},
                                  {"Adaptivity/Maximum steps", "12"},
                                  {"Adaptivity/Maximum unknowns", "2500"}};
 
+const Overrides of_reference_in_space{{"Adaptivity/Method", "hap3"},
+                                      {"Adaptivity/Maximum steps", "3"},
+                                      {"Adaptivity/Maximum unknowns", "4000"}};
+
 /** Many steps; stored is the one with the least bound. */
 Run Attack::solve_reference(double &bound, const unsigned int number) const
 {
   bound = infinity;
+  if (kind(number) == "boxes")
+    return solve<3>(stem + "-reference.prm", of_reference_in_space);
   Overrides entries = of_reference_run;
   if (has_curves(kind(number))) // polynomials of low degree make another body
     entries[1].second = "7";
-  return solve(stem + "-reference.prm", entries,
-               [&](const StepReport<2> &step)
-               {
-                 if (!(step.bound->total < bound))
-                   return;
-                 bound = step.bound->total;
-                 std::ofstream file(stem + ".reference");
-                 write_solution(file, step.field, step.energies.energy);
-               });
+  return solve<2>(stem + "-reference.prm", entries,
+                  [&](const StepReport<2> &step)
+                  {
+                    if (!(step.bound->total < bound))
+                      return;
+                    bound = step.bound->total;
+                    std::ofstream file(stem + ".reference");
+                    write_solution(file, step.field, step.energies.energy);
+                  });
 }
 
 /** What contradicts the theorems; the score takes in how near the bounds are. */
@@ -420,7 +441,8 @@ void Attack::keep(const unsigned int number, const std::vector<std::string> &fla
   }
   out << std::ifstream(stem + ".prm").rdbuf();
   reference << "# hpvi";
-  for (const auto &[entry, value] : of_reference_run)
+  for (const auto &[entry, value] :
+       kind(number) == "boxes" ? of_reference_in_space : of_reference_run)
     reference << " --set \"" << entry << "=" << value << '"';
   reference << '\n' << std::ifstream(stem + "-reference.prm").rdbuf();
 }
@@ -445,7 +467,8 @@ void Attack::try_scene(const unsigned int number)
   Overrides against;
   if (scene.shares_mesh && std::isfinite(of_reference))
     against.emplace_back("Error/Reference solution", stem + ".reference");
-  const Run run = solve(stem + ".prm", against);
+  const Run run =
+      kind(number) == "boxes" ? solve<3>(stem + ".prm", {}) : solve<2>(stem + ".prm", against);
   std::vector<std::string> found = flaws(run, reference, of_reference, number);
   for (const std::string &surprise : {run.surprise, reference.surprise})
     if (!surprise.empty())
