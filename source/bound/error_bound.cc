@@ -44,8 +44,8 @@ using namespace dealii;
 
 namespace
 {
-/** Relative imbalance that is taken for round-off; up to the second the oscillation pays for it. */
-constexpr double tolerable = 1e-9, payable = 1e-7;
+/** Relative imbalance that is taken for round-off; up to the second the oscillation pays for it; up to the third it leaves an estimate. */
+constexpr double tolerable = 1e-9, payable = 1e-7, estimable = 1e-4;
 
 /** What contact adds: w, and what is left of the law where u_N - w moves. */
 struct ContactError
@@ -217,6 +217,20 @@ std::string flaw_of_correction(const Solution<2> &solution, const ContactCorrect
            text(correction.opening() / largest, 2) +
            " of the largest displacement, and what meets at their ends keeps them open";
   return {};
+}
+
+/** Nothing is guaranteed; but what is wrong by little, by @p size of the whole, leaves the number as an estimate. */
+void set_flaw(ErrorBound &result, const std::string &why, const double size)
+{
+  if (!(size <= estimable))
+    result.flaw = why;
+  else if (result.kind != BoundKind::estimate)
+  {
+    result.kind = BoundKind::estimate;
+    result.why = why;
+    result.total = result.estimate;
+    set_no_energy(result);
+  }
 }
 
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
@@ -520,10 +534,17 @@ try
   }
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, made->pressure, data, stress.has_rows());
-  if (result.flaw.empty())
-    result.flaw = contact.flaw;
-  if (result.flaw.empty())
-    result.flaw = flaw_of_balance(solution, stress, bool(made->balanced));
+  if (!result.flaw.empty())
+    return result;
+  const double violation = contact.correction ? std::max(contact.correction->penetration(),
+                                                         contact.correction->opening()) /
+                                                    solution.u.linfty_norm()
+                                              : std::numeric_limits<double>::infinity();
+  for (const auto &[why, size] :
+       {std::pair(contact.flaw, violation),
+        std::pair(flaw_of_balance(solution, stress, bool(made->balanced)), stress.defect)})
+    if (!why.empty() && result.flaw.empty())
+      set_flaw(result, why, size);
   return result;
 }
 catch (const NumericalFailure &failure)
