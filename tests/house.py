@@ -37,7 +37,7 @@ EVALUATIONS = {
     "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
     "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 6,
     "source/plane/contact_numbering.cc": 6, "source/plane/static_admissibility.cc": 1, "source/plane/elastic_system.cc": 2,
-    "source/plane/initial_stress.cc": 4, "source/plane/missed_loads.cc": 1,
+    "source/plane/initial_stress.cc": 5, "source/plane/missed_loads.cc": 1,
     "source/plane/pretension_force.cc": 2, "source/plane/springs.cc": 1, "source/bound/boundary_tractions.cc": 2,
     "source/bound/data_error.cc": 2, "source/bound/displacement_lift.cc": 1, "source/bound/joint_lift.cc": 1,
     "source/bound/joint_tractions.cc": 2, "source/bound/force_modes.cc": 3, "source/bound/parallelogram_stresses.cc":

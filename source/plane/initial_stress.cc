@@ -55,7 +55,7 @@ struct StrainOfCell
   const ShapeTable<2> &table;
   std::vector<Tensor<2, 2>> strains, stresses; ///< eps_0, C eps_0
   std::vector<Hoop> hoops;                     ///< what these are around an axis
-  std::vector<double> weights;
+  std::vector<double> weights, across;         ///< Material::energy_across()
 };
 
 StrainOfCell::StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &space,
@@ -82,6 +82,8 @@ StrainOfCell::StrainOfCell(const Scene<2> &scene, const DisplacementSpace<2> &sp
       stresses[q] = Tensor<2, 2>(law.stress(strains[q], hoop.strain));
     }
     hoops.push_back(hoop);
+    across.push_back(
+        scene.material_of(cell).energy_across(initial_strain_across<2>(scene, cell, x)));
   }
 }
 
@@ -239,8 +241,9 @@ double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
                                invert(cell.map.jacobian(table.points[q])));
       const Hoop &hoop = cell.hoops[q];
       of_cells[index] +=
-          cell.weights[q] * (scalar_product(cell.stresses[q], 0.5 * cell.strains[q] - gradient) +
-                             hoop.stress * (0.5 * hoop.strain - values[q] * hoop.curvature));
+          cell.weights[q] *
+          (scalar_product(cell.stresses[q], 0.5 * cell.strains[q] - gradient) +
+           hoop.stress * (0.5 * hoop.strain - values[q] * hoop.curvature) + cell.across[q]);
     }
   };
   for_each_strain(scene, space, tables, space.rules(), Volume::full, measure);

@@ -120,6 +120,12 @@ double Material::transverse_stress(const SymmetricTensor<2, 2> &sigma, const dou
          orthotropy->young[2] * e33;
 }
 
+double Material::energy_across(const double e33) const
+{
+  return plane == PlaneModel::strain ? (orthotropy ? orthotropy->young[2] : young) * e33 * e33 / 2
+                                     : 0.;
+}
+
 /** In plane strain `eps_zz = 0`: what e33 wants to expand is pressed back and widens the plane. */
 SymmetricTensor<2, 2> Material::in_plane(const PlaneStrain &initial) const
 {

@@ -83,7 +83,7 @@ dealii::Vector<double> initial_strain_loads(const Scene<2> &scene,
 
 /**
  * `1/2 int C eps_0 : eps_0 - int C eps_0 : eps(u)`, by what the elastic energy `1/2 int C (eps(u) - eps_0) : (eps(u) - eps_0)`
- * differs from a(u,u)/2, for unit thickness [stress length^2].
+ * differs from a(u,u)/2, for unit thickness [stress length^2]; in plane strain with what e33 stores across.
  */
 double initial_energy(const Scene<2> &scene, const DisplacementSpace<2> &space,
                       const ShapeTables<2> &tables, const dealii::Vector<double> &u);

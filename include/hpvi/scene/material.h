@@ -80,6 +80,9 @@ struct Material
    * axisymmetric body less its hoop strain. */
   double transverse_stress(const dealii::SymmetricTensor<2, 2> &sigma, double e33 = 0) const;
 
+  /** What e33 stores in plane strain beside the strains in_plane(), `E_3 e33^2/2` [stress]: nothing lets the body become thicker. */
+  double energy_across(double e33) const;
+
   /** What an initial strain is in the plane: there `sigma = C : (eps - result)`; in plane strain e33 presses, too. */
   dealii::SymmetricTensor<2, 2> in_plane(const PlaneStrain &initial) const;
 
