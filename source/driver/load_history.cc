@@ -4,7 +4,6 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/driver/load_history.h>
-#include <hpvi/plane/initial_stress.h>
 #include <hpvi/plane/interpolation.h>
 #include <hpvi/plane/tangential_trace.h>
 #include <hpvi/reader/checks/checks.h>
@@ -331,6 +330,9 @@ void LoadHistory<dim>::Evolution::count(const Work &done)
   finished.load.released += scene.thickness * done.released;
   finished.load.unbalanced += scene.thickness * done.unbalanced;
   finished.load.trapezoidal += scene.thickness * done.trapezoidal;
+  const double initial = scene.thickness * done.initial;
+  finished.load.work += initial - finished.initial_part; // what heats the body does work on it, too
+  finished.initial_part = initial;
 }
 
 /** What the load step did from where the one before has ended. */
@@ -344,12 +346,6 @@ void LoadHistory<dim>::Evolution::count_work(const ReducedPart<dim> &part)
     const Work done = past ? work(interpolate(past->solution, *solution.spaces), solution, loads)
                            : work_from_rest(solution, loads);
     count(done);
-    const double initial =
-        scene.thickness *
-        initial_energy(solution.scene, solution.displacement_space, solution.tables, solution.u);
-    finished.load.work +=
-        initial - finished.initial_part; // what heats the body does work on it, too
-    finished.initial_part = initial;
     past.emplace(Past<dim>{current, solution});
   }
 }

@@ -400,12 +400,14 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
                                       const Equilibrium<dim> &balance) const
 {
   Warnings result;
+  const Tensor<2, dim> initial_stress = system->initial_stress();
   collectively(space->communicator(),
                [&]()
                {
-                 const LoadCheck<dim> check(scene);
-                 if (const std::string line = check.warning(balance.loads); !line.empty())
-                   result.push_back({WarningKind::load, 0., line});
+                 for (const std::string &line : {LoadCheck<dim>(scene).warning(balance.loads),
+                                                 strain_warning(scene, initial_stress)})
+                   if (!line.empty())
+                     result.push_back({WarningKind::load, 0., line});
                });
   if (report.is_cut_off)
     result.push_back({WarningKind::cut_off, double(report.steps),

@@ -66,12 +66,11 @@ template <int dim>
 std::string initial_strain_in_words(const InitialStrain<dim> &initial,
                                     const std::vector<Point<dim>> &points)
 {
-  const std::array<std::string, 4> names{{"e1", "e2", "e12", "e33"}};
   std::string words;
-  for (unsigned int k = 0; k < 4; ++k)
+  for (unsigned int k = 0; k < initial.components.size(); ++k)
     if (initial.components[k])
-      words += (words.empty() ? ", initial strain " : ", ") + names[k] + " = " +
-               range_in_words(values_at<dim>(points, initial.components[k]), "");
+      words += (words.empty() ? ", initial strain " : ", ") + std::string(strain_names<dim>()[k]) +
+               " = " + range_in_words(values_at<dim>(points, initial.components[k]), "");
   if (initial.expansion != 0)
     words += ", thermal expansion " + text(initial.expansion, 6);
   return words;

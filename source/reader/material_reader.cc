@@ -192,16 +192,20 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
       "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu)).");
   add("Density", "0", Patterns::Double(0), "a number >= 0",
       "Mass per volume: Body force/Gravity times it is a force per volume [stress/length].");
+  add("Initial strain", "", Patterns::Anything(),
+      dim == 2 ? "e1; e2; e12 or e1; e2; e12; e33 or nothing"
+               : "e1; e2; e3; e12; e13; e23 or nothing",
+      "Strain eps_0 that carries no stress: tensor components (e12 is half the angle) as "
+      "expressions of x and y; " +
+          std::string(dim == 2 ? "the fourth, across the plane, presses in plane strain. "
+                               : "e1, e2, e3 along the axes, then the shears. ") +
+          "Stresses are C : (eps - eps_0).");
+  add("Thermal expansion", "0", Patterns::Double(), "a number",
+      "Coefficient of expansion alpha, in all three directions: Temperature/Expression times it "
+      "is added to "
+      "eps_0 [1/temperature].");
   if (dim == 2)
   {
-    add("Initial strain", "", Patterns::Anything(), "e1; e2; e12 or e1; e2; e12; e33 or nothing",
-        "Strain eps_0 that carries no stress: tensor components (e12 is half the angle) as "
-        "expressions of x and y; "
-        "the fourth, across the plane, presses in plane strain. Stresses are C : (eps - eps_0).");
-    add("Thermal expansion", "0", Patterns::Double(), "a number",
-        "Coefficient of expansion alpha, in all three directions: Temperature/Expression times it "
-        "is added to "
-        "eps_0 [1/temperature].");
     add("Plane", plane_strain,
         Patterns::Selection(plane_stress + '|' + plane_strain + '|' + axisymmetric),
         plane_stress + ", " + plane_strain + " or " + axisymmetric,

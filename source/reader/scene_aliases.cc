@@ -54,6 +54,10 @@ std::vector<Alias> hints_about_conditions()
        "friction is \"Boundary bottom/Friction bound\", Tresca's, or \"Boundary "
        "bottom/Friction coefficient\", Coulomb's; a shear modulus follows from \"Material/Young's "
        "modulus\" and \"Material/Poisson's ratio\""},
+      {{"thermal", "heat", "temperature change", "thermal strain", "eigenstrain", "prestress",
+        "prestrain", "shrinkage"},
+       "strains without load are \"Material/Initial strain\" = e1; e2; e12, or "
+       "\"Material/Thermal expansion\" with \"Temperature/Expression\""},
       {{"penalty", "contact stiffness", "penalty parameter"},
        "contact has no constant to choose; remove it"}};
 }
@@ -148,10 +152,6 @@ std::vector<Alias> hints_in_plane()
        "\"Material/Angle\""},
       {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
        "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
-      {{"thermal", "heat", "temperature change", "thermal strain", "eigenstrain", "prestress",
-        "prestrain", "shrinkage"},
-       "strains without load are \"Material/Initial strain\" = e1; e2; e12, or "
-       "\"Material/Thermal expansion\" with \"Temperature/Expression\""},
       {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force"},
        "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
        "\"Boundary top/Force\" = Fx; Fy"},
@@ -174,8 +174,6 @@ std::vector<Alias> hints_in_space()
           {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
           {{"spring", "elastic foundation", "winkler"},
            "only a body in the plane has springs; remove it"},
-          {{"temperature", "initial strain", "thermal expansion"},
-           "only a body in the plane has initial strains; remove it"},
           {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},
           {{"size"},
            "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\", and a "

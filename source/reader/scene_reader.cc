@@ -44,7 +44,16 @@ std::string section_with(const Parameters &parameters, const Material &material,
   return parameters.text(own, entry).empty() ? section_of_material("") : own;
 }
 
-/** Three components, or four, of which the last one is across the plane. */
+/** Three components, or four, of which the last one is across the plane; in space six. */
+std::array<Expression<3>, 6> read_components(const Parameters &parameters,
+                                             const ExpressionReader<3> &expressions,
+                                             const Material &material,
+                                             const std::vector<Point<3>> &points)
+{
+  const std::string entry = "Initial strain";
+  return expressions.read<6>(section_with(parameters, material, entry), entry, "0", points);
+}
+
 std::array<Expression<2>, 4> read_components(const Parameters &parameters,
                                              const ExpressionReader<2> &expressions,
                                              const Material &material,
@@ -66,29 +75,31 @@ std::array<Expression<2>, 4> read_components(const Parameters &parameters,
 }
 
 /** Takes initial strains and the temperature of all materials; @p t is the time in a load history. */
+template <int dim>
 void read_initial_strains(const Parameters &parameters, const std::optional<double> t,
-                          Scene<2> &scene)
+                          Scene<dim> &scene)
 {
   const std::string section = "Temperature", entry = "Expression";
-  const std::vector<Point<2>> points = sample_body(scene.geometry);
+  const std::vector<Point<dim>> points = sample_body(scene.geometry);
   bool expands = false;
   for (const Material &material : scene.materials)
   {
-    const ExpressionReader<2> expressions(parameters, constants_of(material, t),
-                                          remark_on_constants(material));
-    InitialStrain<2> strain;
+    const ExpressionReader<dim> expressions(parameters, constants_of(material, t),
+                                            remark_on_constants(material));
+    InitialStrain<dim> strain;
     strain.components = read_components(parameters, expressions, material, points);
     strain.expansion = parameters.number(section_with(parameters, material, "Thermal expansion"),
                                          "Thermal expansion");
-    strain.temperature = expressions.read<1>(section, entry, "0", points)[0];
+    strain.temperature = expressions.template read<1>(section, entry, "0", points)[0];
     expands = expands || strain.expansion != 0.;
     scene.initial_strains.push_back(strain);
   }
   if (!parameters.text(section, entry).empty() && !expands)
     parameters.reject("Temperature", "Expression",
                       "strains nothing; give Material/Thermal expansion or remove it");
-  for (unsigned int k = 0; k < scene.pretensions.size(); ++k)
-    set_shortening(scene, k, 0.);
+  if constexpr (dim == 2)
+    for (unsigned int k = 0; k < scene.pretensions.size(); ++k)
+      set_shortening(scene, k, 0.);
   if (!scene.has_initial_strain())
     scene.initial_strains.clear();
 }
@@ -366,8 +377,7 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   read_body(*parameters, names, scene);
   read_method(*parameters, scene);
   read_body_force(*parameters, t, scene);
-  if constexpr (dim == 2)
-    read_initial_strains(*parameters, t, scene);
+  read_initial_strains(*parameters, t, scene);
   if constexpr (dim == 2)
     scene.exact_solution =
         read_exact_solution(*parameters,

@@ -12,13 +12,14 @@ using namespace dealii;
 namespace
 {
 /** The way towards the middle of a cell on which nothing but a jump changes much, as a part of it. */
-double short_way(const CellMap<2> &map)
+template <int dim>
+double short_way(const CellMap<dim> &map)
 {
   // Edges have polynomials for their curves, along which the jump is.
   if (map.is_curved())
     return 1. / 256;
   double farthest = 0;
-  for (const Point<2> &vertex : map.vertices())
+  for (const Point<dim> &vertex : map.vertices())
     farthest = std::max(farthest, vertex.norm());
   const double round_off = std::numeric_limits<double>::epsilon() * farthest / map.shortest_edge();
   return std::clamp(64 * round_off, 1e-9, 1. / 256);
@@ -28,14 +29,18 @@ double short_way(const CellMap<2> &map)
  * What the limit of eps_0 from the middle of a cell has more than eps_0 itself: by two points on the way, whose difference tells what is
  * smooth from a jump; 0 where there is none.
  */
-PlaneStrain jump_inwards(const InitialStrain<2> &initial, const CellMap<2> &map,
-                         const Point<2> &reference)
+template <int dim>
+StrainComponents<dim> jump_inwards(const InitialStrain<dim> &initial, const CellMap<dim> &map,
+                                   const Point<dim> &reference)
 {
-  const Tensor<1, 2> way = short_way(map) * (Point<2>(0.5, 0.5) - reference);
-  const PlaneStrain here = initial.value(map.point(reference)),
-                    near = initial.value(map.point(reference + way)),
-                    far = initial.value(map.point(reference + 2. * way));
-  PlaneStrain result{};
+  Point<dim> middle;
+  for (unsigned int d = 0; d < dim; ++d)
+    middle[d] = 0.5;
+  const Tensor<1, dim> way = short_way(map) * (middle - reference);
+  const StrainComponents<dim> here = initial.value(map.point(reference)),
+                              near = initial.value(map.point(reference + way)),
+                              far = initial.value(map.point(reference + 2. * way));
+  StrainComponents<dim> result{};
   for (unsigned int k = 0; k < result.size(); ++k)
     if (const double jump = 2 * near[k] - far[k] - here[k];
         std::abs(jump) > std::abs(near[k] - far[k]) + 1e-12 * std::abs(near[k]))
@@ -53,17 +58,19 @@ ElasticStrain<dim> elastic_strain(const Scene<dim> &scene, const types::material
     return {gradient, 0., 0.};
   const Point<dim> x = map.point(reference);
   ElasticStrain<dim> result{gradient, scene.hoop_strain(material, u, gradient, x), 0.};
-  if constexpr (dim == 2)
-    if (!scene.initial_strains.empty())
+  if (!scene.initial_strains.empty())
+  {
+    const InitialStrain<dim> &initial = scene.initial_strains.at(material);
+    const StrainComponents<dim> jump = jump_inwards<dim>(initial, map, reference);
+    result.in_plane -= scene.initial_strain(material, x);
+    result.in_plane -= Tensor<2, dim>(scene.materials[material].without_stress(jump));
+    if constexpr (dim == 2)
     {
-      const InitialStrain<2> &initial = scene.initial_strains.at(material);
-      const PlaneStrain jump = jump_inwards(initial, map, reference);
-      result.in_plane -= scene.initial_strain(material, x);
-      result.in_plane -= Tensor<2, 2>(scene.materials[material].in_plane(jump));
       result.across = initial.value(x)[3] + jump[3];
       if (scene.is_axisymmetric())
         result.hoop -= jump[3];
     }
+  }
   if (scene.is_axisymmetric())
     result.across = -result.hoop;
   return result;

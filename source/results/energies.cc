@@ -3,6 +3,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/base/processes.h>
+#include <hpvi/plane/initial_stress.h>
 #include <hpvi/results/contact_traces.h>
 #include <hpvi/results/energies.h>
 #include <hpvi/results/equilibrium.h>
@@ -287,11 +288,20 @@ Acting acting(const Solution<dim> &state, const Vector<double> &loads, const Vec
   return result;
 }
 
-Work between(const Acting &last, const Acting &next)
+Work between(const Acting &last, const Acting &next, const double initial)
 {
-  return {0.5 * (last.outside + next.outside), next.friction,
+  return {0.5 * (last.outside + next.outside),
+          next.friction,
           0.5 * (last.friction - next.friction + last.pressure + next.pressure),
-          0.5 * last.residual, 0.5 * (last.friction + next.friction)};
+          0.5 * last.residual,
+          0.5 * (last.friction + next.friction),
+          initial};
+}
+
+double initial_energy(const Solution<2> &solution)
+{
+  return hpvi::initial_energy(solution.scene, solution.displacement_space, solution.tables,
+                              solution.u);
 }
 } // namespace
 
@@ -307,7 +317,7 @@ Work work(const Solution<dim> &last, const Solution<dim> &next, const Vector<dou
       acting(last,
              load_vector(last.scene, last.displacement_space, last.tables, *last.spaces->loads), du,
              change),
-      acting(next, loads, du, change));
+      acting(next, loads, du, change), initial_energy(next));
 }
 
 template <int dim>
@@ -316,7 +326,7 @@ Work work_from_rest(const Solution<dim> &next, const Vector<double> &loads)
   std::vector<double> change = gaps(next.contact_space);
   for (double &gap : change)
     gap = std::min(gap, 0.);
-  return between({}, acting(next, loads, next.u, change));
+  return between({}, acting(next, loads, next.u, change), initial_energy(next));
 }
 
 template Work work(const Solution<2> &, const Solution<2> &, const Vector<double> &);

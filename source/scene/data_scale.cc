@@ -27,11 +27,12 @@ void raise(double &magnitude, const Expression<dim> &function,
 }
 
 /** Wherever its material may be. */
-double largest_initial_stress(const Scene<2> &scene)
+template <int dim>
+double largest_initial_stress(const Scene<dim> &scene)
 {
   double largest = 0;
   for (unsigned int m = 0; m < scene.materials.size(); ++m)
-    for (const Point<2> &x : sample_body(scene.geometry))
+    for (const Point<dim> &x : sample_body(scene.geometry))
       largest = std::max(largest,
                          scene.materials[m].residual_weight() * scene.initial_strain(m, x).norm());
   return largest <= largest_magnitude ? largest : 0.;
@@ -90,14 +91,12 @@ DataScale data_scale(const Scene<dim> &scene)
     for (const Expression<dim> &component : load)
       raise<dim>(force, component, sample_body(scene.geometry), absolute);
   scale.stress = std::max(scale.stress, force * size);
+  if (scene.has_initial_strain())
+    scale.stress = std::max(scale.stress, largest_initial_stress(scene));
   if constexpr (dim == 2)
-  {
-    if (scene.has_initial_strain())
-      scale.stress = std::max(scale.stress, largest_initial_stress(scene));
     for (const Pretension<2> &cut : scene.pretensions)
       scale.stress =
           std::max(scale.stress, cut.force / (scene.thickness * section_of_cut(scene, cut)));
-  }
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
   {

@@ -7,6 +7,20 @@ namespace hpvi
 {
 using namespace dealii;
 
+template <>
+const std::array<const char *, 4> &strain_names<2>()
+{
+  static const std::array<const char *, 4> names{{"e1", "e2", "e12", "e33"}};
+  return names;
+}
+
+template <>
+const std::array<const char *, 6> &strain_names<3>()
+{
+  static const std::array<const char *, 6> names{{"e1", "e2", "e3", "e12", "e13", "e23"}};
+  return names;
+}
+
 template <int dim>
 InitialStrain<dim>::operator bool() const
 {
@@ -16,19 +30,19 @@ InitialStrain<dim>::operator bool() const
 }
 
 template <int dim>
-PlaneStrain InitialStrain<dim>::value(const Point<dim> &x) const
+StrainComponents<dim> InitialStrain<dim>::value(const Point<dim> &x) const
 {
-  PlaneStrain strain{};
-  for (unsigned int k = 0; k < 4; ++k)
+  StrainComponents<dim> strain{};
+  for (unsigned int k = 0; k < strain.size(); ++k)
     if (components[k])
       strain[k] = components[k]->value(x);
   if (expansion != 0. && temperature)
   {
     const double expanded = expansion * temperature->value(x);
-    for (const unsigned int k : {0, 1, 3})
+    for (const unsigned int k : {0, 1, dim == 2 ? 3 : 2})
       strain[k] += expanded;
   }
-  for (unsigned int k = 0; shortening && k < 4; ++k)
+  for (unsigned int k = 0; shortening && k < strain.size(); ++k)
     strain[k] += (*shortening)[k];
   return strain;
 }

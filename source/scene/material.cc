@@ -143,6 +143,17 @@ SymmetricTensor<2, 2> Material::in_plane(const PlaneStrain &initial) const
   return result;
 }
 
+SymmetricTensor<2, 3> Material::without_stress(const StrainComponents<3> &initial) const
+{
+  SymmetricTensor<2, 3> result;
+  for (unsigned int d = 0; d < 3; ++d)
+    result[d][d] = initial[d];
+  result[0][1] = initial[3];
+  result[0][2] = initial[4];
+  result[1][2] = initial[5];
+  return result;
+}
+
 std::string Material::locking_in_words(const int dim) const
 {
   std::ostringstream words;

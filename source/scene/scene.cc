@@ -264,10 +264,8 @@ template <int dim>
 Tensor<2, dim> Scene<dim>::initial_strain(const types::material_id material,
                                           const Point<dim> &x) const
 {
-  if constexpr (dim == 2)
-    if (const InitialStrain<dim> &initial = initial_strains.at(material))
-      return materials[material].in_plane(initial.value(x));
-  (void)material, (void)x;
+  if (const InitialStrain<dim> &initial = initial_strains.at(material))
+    return materials[material].without_stress(initial.value(x));
   return {};
 }
 

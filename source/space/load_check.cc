@@ -2,6 +2,7 @@
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/tolerances.h>
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/load_quadrature.h>
 #include <hpvi/plane/mesh.h>
 #include <hpvi/space/load_check.h>
 
@@ -19,11 +20,11 @@ namespace
 {
 constexpr unsigned int whole_cell = numbers::invalid_unsigned_int;
 
-/** Calls @p take with each point of a face, or of a cell where there is none, and its force. */
+/** Calls @p take with each point of a face, or of a cell where there is none, and its weight. */
 template <int dim>
-void for_each_force(const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
-                    const unsigned int n_gauss, const std::array<unsigned int, dim> &n_parts,
-                    const std::function<void(const Tensor<1, dim> &, const Point<dim> &)> &take)
+void for_each_point(const CellMap<dim> &map, const unsigned int face, const unsigned int n_gauss,
+                    const std::array<unsigned int, dim> &n_parts,
+                    const std::function<void(const Point<dim> &, double)> &take)
 {
   std::array<Quadrature<1>, dim> rules;
   for (unsigned int d = 0; d < dim; ++d)
@@ -41,16 +42,37 @@ void for_each_force(const Load<dim> &load, const CellMap<dim> &map, const unsign
     }
     weight *= face == whole_cell ? std::abs(determinant(map.jacobian(reference)))
                                  : map.face_measure(face, reference);
-    const Point<dim> x = map.point(reference);
-    Tensor<1, dim> force;
-    for (unsigned int c = 0; c < dim; ++c)
-      force[c] = load[c] ? weight * load[c]->value(x) : 0.;
-    take(force, x);
+    take(map.point(reference), weight);
     unsigned int d = 0;
     while (d < dim && ++q[d] == rules[d].size())
       q[d++] = 0;
     ends = d == dim;
   }
+}
+
+/** Rules on a cell or face: that of the run, with the same points, in one part and in many, at least four times as fine. */
+template <int dim>
+struct Parts
+{
+  /** @p varies: nothing else needs a finer one. */
+  Parts(const Scene<dim> &scene, const unsigned int face, const bool varies)
+      : n_gauss(scene.adaptivity.start_degree + 1)
+  {
+    const unsigned int samples = face == whole_cell ? 24 : 48; // along a side of the body
+    once.fill(1);
+    often.fill(1);
+    for (unsigned int d = 0; d < dim && varies; ++d)
+      often[d] = std::max(4U, samples / (n_gauss * scene.geometry.n_cells(d)));
+  }
+
+  unsigned int n_gauss;
+  std::array<unsigned int, dim> once, often;
+};
+
+template <int dim>
+bool varies(const Expression<dim> &function)
+{
+  return function && !is_constant<dim>(function);
 }
 
 template <int dim>
@@ -77,11 +99,11 @@ std::string in_brackets(const double value)
   return text(value, 6);
 }
 
-template <int dim>
-std::string in_brackets(const Tensor<1, dim> &x)
+template <int n>
+std::string in_brackets(const Tensor<1, n> &x)
 {
   std::string list;
-  for (unsigned int d = 0; d < dim; ++d)
+  for (unsigned int d = 0; d < n; ++d)
     list += (d > 0 ? " " : "") + text(x[d], 6);
   return "(" + list + ")";
 }
@@ -120,27 +142,19 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
   size = scene.geometry.diameter();
   Triangulation<dim> mesh;
   make_mesh(scene, mesh);
-  const unsigned int n_gauss = scene.adaptivity.start_degree + 1;
   double largest = 0;
   const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
                         const std::string &name)
   {
-    const bool varies = std::any_of(load.begin(), load.end(),
-                                    [](const Expression<dim> &component)
-                                    { return component && !is_constant<dim>(component); });
-    std::array<unsigned int, dim> once, often;
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const unsigned int samples = face == whole_cell ? 24 : 48; // along a side of the body
-      once[d] = 1;
-      often[d] = varies ? std::max(4U, samples / (n_gauss * scene.geometry.n_cells(d))) : 1;
-    }
+    const Parts<dim> parts(scene, face, std::any_of(load.begin(), load.end(), varies<dim>));
     Tensor<1, dim> coarse, fine;
-    for_each_force<dim>(load, map, face, n_gauss, once,
-                        [&](const Tensor<1, dim> &force, const Point<dim> &) { coarse += force; });
-    for_each_force<dim>(load, map, face, n_gauss, often,
-                        [&](const Tensor<1, dim> &force, const Point<dim> &x)
+    for_each_point<dim>(map, face, parts.n_gauss, parts.once,
+                        [&](const Point<dim> &x, const double weight)
+                        { coarse += weight * load_at<dim>(load, x); });
+    for_each_point<dim>(map, face, parts.n_gauss, parts.often,
+                        [&](const Point<dim> &x, const double weight)
                         {
+                          const Tensor<1, dim> force = weight * load_at<dim>(load, x);
                           fine += force;
                           sum.moment += moment(x - centre, force);
                           for (unsigned int c = 0; c < dim; ++c)
@@ -188,6 +202,108 @@ std::string LoadCheck<dim>::warning(const BoundaryForce<dim> &loads) const
          " by the finer rule; take more Geometry/Subdivisions";
 }
 
+// @sect3{Initial strains}
+//
+namespace
+{
+/** Of something that is integrated over coarse cells or faces: by the rule of the run, and by a finer one. */
+template <int dim, int n>
+class Comparison
+{
+public:
+  using Value = Tensor<1, n>;
+
+  Comparison(const Scene<dim> &scene) : scene(scene)
+  {
+  }
+
+  /** At one cell, or its @p face. */
+  void look(const CellMap<dim> &map, const unsigned int face, const bool is_varying,
+            const std::string &name, const std::function<Value(const Point<dim> &)> &value)
+  {
+    const Parts<dim> parts(scene, face, is_varying);
+    Value coarse, fine;
+    for_each_point<dim>(map, face, parts.n_gauss, parts.once,
+                        [&](const Point<dim> &x, const double weight)
+                        { coarse += weight * value(x); });
+    for_each_point<dim>(map, face, parts.n_gauss, parts.often,
+                        [&](const Point<dim> &x, const double weight)
+                        {
+                          const Value part = weight * value(x);
+                          fine += part;
+                          absolute += part.norm();
+                        });
+    sum += fine;
+    if (!worst.empty() && (coarse - fine).norm() <= (here - finer).norm())
+      return;
+    worst = name;
+    where = middle_of(map, face);
+    here = coarse;
+    finer = fine;
+  }
+
+  /** Empty where the discrete problem has seen the same @p all, to 1e-3 of all absolute values. */
+  std::string warning(const Value &all, const std::string &what) const
+  {
+    if ((all - sum).norm() <= 1e-3 * absolute)
+      return {};
+    return worst + " is not resolved near " + in_brackets<dim>(where) + ": there its " + what +
+           " is " + in_brackets(here) + " by the rule of the run and " + in_brackets(finer) +
+           " by a finer one; in all it is " + in_brackets(all) + " in the discrete problem, " +
+           in_brackets(sum) + " by the finer rule; take more Geometry/Subdivisions";
+  }
+
+private:
+  const Scene<dim> &scene;
+  Value sum;
+  double absolute = 0;
+  std::string worst; ///< where the rules differ most
+  Point<dim> where;  ///< the middle there
+  Value here, finer; ///< by both rules
+};
+
+/** xx, yy, zz, xy, xz, yz of a stress; of the plane xx, yy, xy. */
+template <int dim>
+Tensor<1, dim *(dim + 1) / 2> components(const Tensor<2, dim> &stress)
+{
+  Tensor<1, dim *(dim + 1) / 2> result;
+  unsigned int k = 0;
+  for (unsigned int d = 0; d < dim; ++d)
+    result[k++] = stress[d][d];
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int d = c + 1; d < dim; ++d)
+      result[k++] = stress[c][d];
+  return result;
+}
+} // namespace
+
+template <int dim>
+std::string strain_warning(const Scene<dim> &scene, const Tensor<2, dim> &stresses)
+{
+  if (!scene.has_initial_strain())
+    return {};
+  Triangulation<dim> mesh;
+  make_mesh(scene, mesh);
+  Comparison<dim, dim *(dim + 1) / 2> comparison(scene);
+  for (const auto &cell : mesh.cell_iterators_on_level(0))
+  {
+    const types::material_id material = cell->material_id();
+    const InitialStrain<dim> &initial = scene.initial_strains[material];
+    if (!initial)
+      continue;
+    const bool own = std::any_of(initial.components.begin(), initial.components.end(), varies<dim>);
+    comparison.look(
+        map_of<dim>(cell), whole_cell,
+        own || (initial.expansion != 0. && varies<dim>(initial.temperature)),
+        own ? "Initial strain" : "Temperature",
+        [&, law = HookesLaw<dim>(scene.materials[material])](const Point<dim> &x)
+        { return components<dim>(Tensor<2, dim>(law.stress(scene.initial_strain(material, x)))); });
+  }
+  return comparison.warning(components<dim>(stresses), "stress over a coarse cell");
+}
+
 template struct LoadCheck<2>;
 template struct LoadCheck<3>;
+template std::string strain_warning(const Scene<2> &, const Tensor<2, 2> &);
+template std::string strain_warning(const Scene<3> &, const Tensor<2, 3> &);
 } // namespace hpvi

@@ -4,6 +4,7 @@
 #include <hpvi/plane/load_quadrature.h>
 #include <hpvi/plane/shape_tables.h>
 #include <hpvi/space/load_work.h>
+#include <hpvi/space/strain_loads.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -57,6 +58,8 @@ double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const D
                  const unsigned int n_points)
 {
   const std::vector<ShapeTable<dim>> tables = tables_of<dim>(space.tables.degree, n_points);
+  const StrainLoads<dim> strains(scene, space, n_points);
+  const bool has_inner_loads = scene.has_body_force() || scene.has_initial_strain();
   return sum_collectively(
       space.communicator(),
       [&]()
@@ -64,9 +67,11 @@ double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const D
         double sum = 0;
         for (const auto &cell : space.dof_handler.active_cell_iterators())
         {
-          if (!cell->is_locally_owned() || !(scene.has_body_force() || cell->at_boundary()))
+          if (!cell->is_locally_owned() || !(has_inner_loads || cell->at_boundary()))
             continue;
           const CellField<dim> field = space.field(cell, u);
+          if (scene.has_initial_strain())
+            sum += product<dim>(strains.load(cell), field);
           const CellMap<dim> map = map_of<dim>(cell);
           if (scene.has_body_force())
             sum += work_on<dim>(

@@ -79,6 +79,8 @@ NodalReactions<dim>::NodalReactions(const PrimalSpace<dim> &space, const PrimalS
   loads.swap(forces.loads);
   reactions.swap(forces.internal);
   reactions -= loads;
+  if (space.scene.has_initial_strain())
+    loads -= system.strain_loads();
   find_contact_forces(lambda);
   carry_to_masters();
   find_nodes();

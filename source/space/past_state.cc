@@ -119,9 +119,12 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
     return acting(load_work(*state.scene, space, du, space.tables.degree + 1), own * own_du, all);
   };
   const Acting before = last ? in_state(*last) : Acting(), after = in_state(next);
-  return {0.5 * (before.outside + after.outside), after.friction,
+  return {0.5 * (before.outside + after.outside),
+          after.friction,
           0.5 * (before.friction - after.friction + before.pressure + after.pressure),
-          -0.5 * before.elsewhere, 0.5 * (before.friction + after.friction)};
+          -0.5 * before.elsewhere,
+          0.5 * (before.friction + after.friction),
+          system.initial_energy(next.u)};
 }
 
 template PastState<2> end_state(const PrimalSpace<2> &, const DistributedVector &,

@@ -34,21 +34,14 @@ void integrate(const Load<dim> &load, const BoxTable<dim> &table, const CellMap<
       }
   }
 }
-
-template <int dim>
-double product(const CellField<dim> &a, const CellField<dim> &b)
-{
-  double sum = 0;
-  for (unsigned int i = 0; i < a.size(); ++i)
-    sum += a[i] * b[i];
-  return sum;
-}
 } // namespace
 
 template <int dim>
 PrimalSystem<dim>::PrimalSystem(const PrimalSpace<dim> &space)
     : f(space.ghosted_vector()), space(space), stiffness(space)
 {
+  if (space.scene.has_initial_strain())
+    strains = std::make_unique<const StrainLoads<dim>>(space.scene, space, space.tables.degree + 1);
   std::vector<double> far; // what acts on nodes opposite
   if (space.opposite)
   {
@@ -231,13 +224,16 @@ template <int dim>
 CellField<dim> PrimalSystem<dim>::load(const Cell &cell) const
 {
   CellField<dim> result = body_load(cell);
+  const auto add = [&](const CellField<dim> &more)
+  {
+    for (unsigned int i = 0; i < more.size(); ++i)
+      result[i] += more[i];
+  };
+  if (strains)
+    add(strains->load(cell));
   for (const unsigned int face : cell->face_indices())
     if (cell->at_boundary(face))
-    {
-      const CellField<dim> side = side_load(cell, face);
-      for (unsigned int i = 0; i < side.size(); ++i)
-        result[i] += side[i];
-    }
+      add(side_load(cell, face));
   return result;
 }
 
@@ -266,8 +262,8 @@ double PrimalSystem<dim>::work(const DistributedVector &u) const
                             double sum = 0;
                             for (const Cell &cell : space.dof_handler.active_cell_iterators())
                               if (cell->is_locally_owned() &&
-                                  (space.scene.has_body_force() || cell->at_boundary()))
-                                sum += product(load(cell), space.field(cell, u));
+                                  (space.scene.has_body_force() || strains || cell->at_boundary()))
+                                sum += product<dim>(load(cell), space.field(cell, u));
                             return sum;
                           });
 }
@@ -284,6 +280,41 @@ PrimalSystem<dim>::nodal_forces(const DistributedVector &u) const
     vector->update_ghost_values();
   }
   return forces;
+}
+
+template <int dim>
+DistributedVector PrimalSystem<dim>::strain_loads() const
+{
+  DistributedVector result = space.ghosted_vector();
+  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  collectively(space.communicator(),
+               [&]()
+               {
+                 for (const Cell &cell : space.dof_handler.active_cell_iterators())
+                   if (cell->is_locally_owned() && strains)
+                   {
+                     cell->get_dof_indices(dofs);
+                     const CellField<dim> loads = strains->load(cell);
+                     for (unsigned int i = 0; i < loads.size(); ++i)
+                       for (unsigned int c = 0; c < dim; ++c)
+                         result(dofs[space.tables.numbers[i][c]]) += loads[i][c];
+                   }
+               });
+  result.compress(VectorOperation::add);
+  result.update_ghost_values();
+  return result;
+}
+
+template <int dim>
+Tensor<2, dim> PrimalSystem<dim>::initial_stress() const
+{
+  return strains ? strains->stress() : Tensor<2, dim>();
+}
+
+template <int dim>
+double PrimalSystem<dim>::initial_energy(const DistributedVector &u) const
+{
+  return strains ? strains->energy(u) : 0.;
 }
 
 /** Of the cells of this process. */

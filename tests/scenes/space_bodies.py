@@ -469,6 +469,10 @@ with tempfile.TemporaryDirectory() as scratch:
         # Friction's work by the rules of plane and space, whose points differ: to and fro.
         moved = {**HELD, "load": "set Displacement = 0.03*sin(pi*t); -0.02{none}"}
         check_layers(scratch, moved, LAWS[1:2], ["Loading/Steps=4"], "dissipated_energy", 1e-5)
+        # One of the two is heated, and what is held warps, in load steps as well.
+        hot = "\nend\nsubsection Material soft\n  set Thermal expansion = 0.001\nend\nsubsection Temperature\n  set Expression = {}"
+        check_layers(scratch, HELD, [law + hot.format("10*x*(1 - y)") for law in LAWS[1:4]])
+        check_layers(scratch, moved, [LAWS[0] + hot.format("20*t")], ["Loading/Steps=2"], "stored_energy")
         check_layers(scratch, FLOATING, [law for law in LAWS if "bilateral" not in law])
         check_stack(scratch)
         check_motions(scratch)

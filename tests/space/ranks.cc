@@ -128,6 +128,17 @@ TEST(Ranks, HeldByContactAlone)
   }
 }
 
+TEST(Ranks, HeatAndInitialStrain)
+{
+  expect_same_run(slab({{"Boundary bottom/Contact", "unilateral"},
+                        given::coulomb("0.6"),
+                        {"Material/Initial strain", "0.01*y; 0; 0; 0.01; 0; 0.002*x"},
+                        {"Material/Thermal expansion", "0.002"},
+                        {"Temperature/Expression", "if(x > 2, 5 + y*z, 0)"},
+                        {"Geometry/Subdivisions", "2, 2, 1"},
+                        {"Adaptivity/Maximum steps", "2"}}));
+}
+
 /** Slip of the past and work go with the cells from process to process. */
 TEST(Ranks, LoadHistory)
 {
@@ -139,6 +150,8 @@ TEST(Ranks, LoadHistory)
                                 {"Geometry/Subdivisions", "2, 2, 1"},
                                 {"Adaptivity/Maximum steps", "2"},
                                 {"Loading/Adapt", "every step"},
+                                {"Material/Thermal expansion", "0.001"},
+                                {"Temperature/Expression", "10*t*y"},
                                 {"Loading/Steps", "2"}});
   const auto evolution = [&](MPI_Comm communicator)
   {
@@ -148,8 +161,9 @@ TEST(Ranks, LoadHistory)
             [&](const StepReport<3> &step)
             {
               EXPECT_EQ(step.primal->newton.augmented_steps, 0u); // where slip turns, too
-              for (const double number : {step.energies.lagrangian, step.load.work,
-                                          step.load.dissipated, step.load.unbalanced})
+              for (const double number :
+                   {step.energies.lagrangian, step.load.work, step.load.dissipated,
+                    step.load.unbalanced, step.load.stored})
                 numbers.push_back(number);
             });
     return numbers;
@@ -255,13 +269,15 @@ TEST(Ranks, AnErrorInAnyStageIsOneOnAll)
   Fuse fuse;
   if (fuse.n != 2)
     GTEST_SKIP() << "one that fails and one that would wait for it are enough";
-  std::vector<Scene<3>> scenes(5, slab(settings)); // each with one function that may fail
+  std::vector<Scene<3>> scenes(6, slab(settings)); // each with one function that may fail
   scenes[0].body_force[1] = fuse(-0.1);
   scenes[1].boundary("bottom").contact = Contact::tangential;
   scenes[1].boundary("bottom").traction[1] = fuse(1);
   scenes[2].boundary("right").displacement[1] = fuse(0);
   scenes[3].boundary("bottom").gap = fuse(0);
   scenes[4].boundary("bottom").friction.bound = fuse(4.5);
+  scenes[5].initial_strains.resize(1);
+  scenes[5].initial_strains[0].components[0] = fuse(0.01);
   for (const Scene<3> &scene : scenes)
   {
     fuse.asked.clear();

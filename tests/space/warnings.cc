@@ -140,6 +140,21 @@ std::vector<Case> cases()
   return result;
 }
 
+/** By one rule, which cuts no cell: a warning, not silence. */
+TEST(Warnings, InSpaceOfHeatThatNoRuleResolves)
+{
+  const Overrides held{{"Boundary right/Displacement", "0; 0; 0"},
+                       {"Geometry/Subdivisions", "1, 1, 1"},
+                       {"Material/Thermal expansion", "1e-4"}};
+  const std::string words = " is not resolved near (0.5 0.5 0.5): there its stress over a coarse";
+  const auto warns = [&](const Overrides &entries, const std::string &begin)
+  { return has(by_primal_path(block<3>(held + entries)), WarningKind::load, begin); };
+  EXPECT_TRUE(warns({{"Temperature/Expression", "if(x < 0.3, 1, 0)"}}, "Temperature" + words));
+  EXPECT_TRUE(warns({{"Material/Initial strain", "if(x*y < 0.2, 1e-3, 0); 0; 0; 0; 0; 0"}},
+                    "Initial strain" + words));
+  EXPECT_FALSE(warns({{"Temperature/Expression", "1 + x*y*z"}}, ""));
+}
+
 TEST(Warnings, StandOnBothPathsInThePlaneAndInSpace)
 {
   for (const Case &row : cases())

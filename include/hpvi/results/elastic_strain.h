@@ -11,7 +11,7 @@ namespace hpvi
 template <int dim>
 struct ElasticStrain
 {
-  dealii::Tensor<2, dim> in_plane; ///< a gradient, for HookesLaw
+  dealii::Tensor<2, dim> in_plane; ///< in space all of it: a gradient, for HookesLaw
   double hoop = 0;                 ///< around the axis of an axisymmetric body, else 0
   double across = 0;               ///< for Material::transverse_stress()
 };

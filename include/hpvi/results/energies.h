@@ -48,6 +48,8 @@ struct Work
   /** Half of what the forces of the last load step leave on du: zero on its own mesh, not on a finer one. */
   double unbalanced = 0;
   double trapezoidal = 0; ///< `1/2 int (z' + z) du_t`: `dissipated` as `external` is formed
+  double initial =
+      0; ///< of the stored energy at the end, what initial strains have: initial_energy()
 };
 
 /**

@@ -86,6 +86,13 @@ struct Material
   /** What an initial strain is in the plane: there `sigma = C : (eps - result)`; in plane strain e33 presses, too. */
   dealii::SymmetricTensor<2, 2> in_plane(const PlaneStrain &initial) const;
 
+  /** The same for both: in the plane in_plane(), in space the tensor of the components. */
+  dealii::SymmetricTensor<2, 2> without_stress(const StrainComponents<2> &initial) const
+  {
+    return in_plane(initial);
+  }
+  dealii::SymmetricTensor<2, 3> without_stress(const StrainComponents<3> &initial) const;
+
   /**
    * Is lambda above 20 mu, as from nu = 0.476 on? Below, mixed methods are no better than others; orthotropic materials have
    * none.

@@ -31,6 +31,16 @@ struct BoxTable
 template <int dim>
 using CellField = std::vector<dealii::Tensor<1, dim>>;
 
+/** Of loads on a cell and a field there: the work. */
+template <int dim>
+double product(const CellField<dim> &a, const CellField<dim> &b)
+{
+  double sum = 0;
+  for (unsigned int i = 0; i < a.size(); ++i)
+    sum += a[i] * b[i];
+  return sum;
+}
+
 /** The change from the inner nodes of a contact face to its contact dofs, `m = M u_inner + W u_rim`. */
 struct FaceContactDofs
 {

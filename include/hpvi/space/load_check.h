@@ -33,6 +33,13 @@ struct LoadCheck
   /** That @p loads of a discrete problem differ from the sum by more than 1e-3 of all; else empty. */
   std::string warning(const BoundaryForce<dim> &loads) const;
 };
+
+/**
+ * The same of initial strains by their stress C eps_0, which acts as a load: that of the cells of a discrete problem in all,
+ * @p stresses [stress length^dim], differs from the finer rule by more than 1e-3 of all; else empty.
+ */
+template <int dim>
+std::string strain_warning(const Scene<dim> &scene, const dealii::Tensor<2, dim> &stresses);
 } // namespace hpvi
 
 #endif

@@ -3,6 +3,7 @@
 #define hpvi_primal_system_h
 
 #include <hpvi/space/box_stiffness.h>
+#include <hpvi/space/strain_loads.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -32,6 +33,12 @@ public:
   /** Of all nodes of this process and beside it. Collective. */
   NodalForces nodal_forces(const DistributedVector &u) const;
 
+  /** Of L(v_i) what initial strains do, which balance themselves. Collective. */
+  DistributedVector strain_loads() const;
+
+  dealii::Tensor<2, dim> initial_stress() const;           ///< StrainLoads::stress(), 0 without
+  double initial_energy(const DistributedVector &u) const; ///< StrainLoads::energy(), likewise
+
   /** A, assembled when it is asked for first: matrix-free methods never do. Collective. */
   dealii::TrilinosWrappers::SparseMatrix &matrix();
 
@@ -52,6 +59,7 @@ private:
 
   const PrimalSpace<dim> &space;
   const BoxStiffness<dim> stiffness;
+  std::unique_ptr<const StrainLoads<dim>> strains; ///< null: there are none
   std::unique_ptr<const DistributedVector> lifted; ///< u where v = 0, while loads are assembled
   dealii::TrilinosWrappers::SparseMatrix A;        ///< empty until matrix()
 };

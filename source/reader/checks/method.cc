@@ -220,7 +220,7 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
     return Objection{"Pretension " + scene.pretensions.front().name, "Through",
                      "is not offered by " + why +
                          "; run the reduced path on one process, or remove it"};
-  if (scene.has_initial_strain())
+  if (dim == 2 && scene.has_initial_strain())
     return Objection{"Material", "Initial strain",
                      "or Thermal expansion is not offered by " + why +
                          "; run the reduced path on one process, or remove it"};

@@ -527,4 +527,7 @@ ExpressionReader<3>::read<1>(const std::string &, const std::string &, const std
 template std::array<ExpressionReader<3>::Expression, 3>
 ExpressionReader<3>::read<3>(const std::string &, const std::string &, const std::string &,
                              const std::vector<Point<3>> &, const ExactField &) const;
+template std::array<ExpressionReader<3>::Expression, 6>
+ExpressionReader<3>::read<6>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<3>> &, const ExactField &) const;
 } // namespace hpvi

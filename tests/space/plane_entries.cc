@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Entries of scenes that plane and space have in common: a slab of one layer in plane strain has the results of the plane.
+#include "runs.h"
+
+#include <hpvi/driver/load_history.h>
+
+#include <algorithm>
+#include <map>
+
+namespace
+{
+using namespace space;
+
+/** Results of a step by what they are and where, per unit of thickness. */
+using Results = std::map<std::string, std::map<std::string, double>>;
+
+template <int dim>
+Results results(const StepReport<dim> &step, const double thickness)
+{
+  Results found;
+  found["energy"] = {{"lagrangian", step.energies.lagrangian / thickness},
+                     {"square of the norm", std::pow(step.energies.norm, 2) / thickness},
+                     {"work", step.load.work / thickness},
+                     {"stored", step.load.stored / thickness},
+                     {"dissipated", step.load.dissipated / thickness}};
+  found["energy with all of friction"]["J"] = step.energies.energy / thickness;
+  found["indicator"]["all"] = step.norms.total / std::sqrt(thickness);
+  for (const StressSample<dim> &sample : step.extrema)
+    if (sample.boundary == numbers::invalid_boundary_id)
+      found["stress"]["von Mises"] = std::max(found["stress"]["von Mises"], sample.value);
+  for (const ProbeValue<dim> &probe : step.probes)
+  {
+    const std::string &name = step.scene.probes[probe.probe].name;
+    for (unsigned int c = 0; c < 2; ++c)
+      found["displacement"][name + std::to_string(c)] = probe.displacement[c].value;
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int d = c; d < 3; ++d)
+        found["stress"][name + std::to_string(c) + std::to_string(d)] = probe.stress[c][d];
+  }
+  for (const Resultant<dim> &force : step.forces)
+    for (unsigned int c = 0; c < 2; ++c)
+      found["force"][force.name + std::to_string(c)] += force.force[c].value / thickness;
+  return found;
+}
+
+template <int dim>
+std::vector<Results> all_results(const Scene<dim> &scene, const double thickness)
+{
+  std::vector<Results> found;
+  LoadHistory<dim>(scene).run([&](const StepReport<dim> &step)
+                              { found.push_back(results(step, thickness)); });
+  return found;
+}
+
+/** Entries that both have, then those that they say in their own words; a block that its right side holds. */
+struct Row
+{
+  const char *name;
+  Overrides both, plane, space;
+};
+
+std::ostream &operator<<(std::ostream &out, const Row &row)
+{
+  return out << row.name;
+}
+
+constexpr double depth = 0.75;
+
+Scene<2> in_plane(const Row &row)
+{
+  return read_scene<2>("prm/han-6-12.prm", joined({{{"Units/Length", ""},
+                                                    {"Units/Stress", ""},
+                                                    {"Material/Plane", "strain"},
+                                                    given::box("4, 4", "2, 2"),
+                                                    given::steps("hup2", "2"),
+                                                    {"Solver/Normal contact", "multiplier"},
+                                                    {"Boundary left/Traction", ""},
+                                                    {"Boundary bottom/Contact", "none"},
+                                                    {"Boundary bottom/Friction bound", ""},
+                                                    {"Probe inside/At", "1.3, 2.7"},
+                                                    {"Probe corner/At", "4, 0"}},
+                                                   row.both,
+                                                   row.plane}));
+}
+
+Scene<3> in_space(const Row &row)
+{
+  return slab(joined({{given::box("4, 4, 0.75", "2, 2, 1"),
+                       given::steps("hup2", "2"),
+                       {"Boundary left/Traction", ""},
+                       {"Boundary bottom/Contact", "none"},
+                       {"Boundary bottom/Friction bound", ""},
+                       {"Boundary front/Symmetry", "true"},
+                       {"Boundary back/Symmetry", "true"},
+                       {"Solver/Primal tolerance", "1e-12"},
+                       {"Probe inside/At", "1.3, 2.7, 0.4"},
+                       {"Probe corner/At", "4, 0, 0.1"}},
+                      row.both,
+                      row.space}));
+}
+
+using PlaneEntries = ::testing::TestWithParam<Row>;
+
+TEST_P(PlaneEntries, HaveTheResultsOfPlaneStrain)
+{
+  const auto flat = all_results<2>(in_plane(GetParam()), 1.),
+             thick = all_results<3>(in_space(GetParam()), depth);
+  ASSERT_EQ(flat.size(), thick.size());
+  for (unsigned int k = 0; k < flat.size(); ++k)
+    for (const auto &[kind, values] : flat[k])
+    {
+      double scale = kind == "force" ? 0.1 : 1e-12; // forces may balance each other
+      for (const auto &[name, value] : values)
+        scale = std::max(scale, std::abs(value));
+      // Second derivatives lose digits, and friction is integrated at other points.
+      const double tolerance = kind == "indicator"                     ? 1e-6
+                               : kind == "energy with all of friction" ? 1e-7
+                                                                       : 1e-8;
+      for (const auto &[name, value] : values)
+      {
+        ASSERT_TRUE(thick[k].count(kind) && thick[k].at(kind).count(name)) << kind << " " << name;
+        EXPECT_NEAR(thick[k].at(kind).at(name), value, tolerance * scale)
+            << kind << " " << name << ", step " << k + 1;
+      }
+    }
+}
+
+Overrides heated(const std::string &temperature, const Overrides &more = {})
+{
+  return Overrides{{"Material/Thermal expansion", "0.002"},
+                   {"Temperature/Expression", temperature}} +
+         more;
+}
+
+/** On the bottom, in load steps. */
+Overrides rough_bottom(const Overrides &more = {})
+{
+  return Overrides{{"Boundary bottom/Contact", "unilateral"},
+                   {"Boundary bottom/Friction coefficient", "0.3"},
+                   {"Loading/Steps", "3"},
+                   {"Adaptivity/Maximum steps", "1"}} +
+         more;
+}
+
+const Overrides pushed_in_plane{{"Boundary left/Traction", "0.4; -0.2"}},
+    pushed_in_space{{"Boundary left/Traction", "0.4; -0.2; 0"}};
+
+INSTANTIATE_TEST_SUITE_P(
+    InitialStrain, PlaneEntries,
+    ::testing::Values(
+        Row{"constant",
+            {},
+            {{"Material/Initial strain", "0.01; -0.005; 0.003; 0.004"}},
+            {{"Material/Initial strain", "0.01; -0.005; 0.004; 0.003; 0; 0"}}},
+        Row{"varies",
+            {},
+            {{"Material/Initial strain", "0.01*x*y; 0.02*y - 0.01*x; 0.004*x^2; 0.01*x"}},
+            {{"Material/Initial strain", "0.01*x*y; 0.02*y - 0.01*x; 0.01*x; 0.004*x^2; 0; 0"}}},
+        Row{"heat", heated("10 + 3*x*y - y^2"), {}, {}},
+        Row{"heat_and_load", heated("10 + x"), pushed_in_plane, pushed_in_space},
+        Row{"both_factorised",
+            heated("10 - x^2", {{"Solver/Linear", "direct"}}),
+            {{"Material/Initial strain", "0.01*y; 0; 0.01"}},
+            {{"Material/Initial strain", "0.01*y; 0; 0; 0.01; 0; 0"}}},
+        Row{"algebraic_multigrid", heated("10 - x^2"), {}, {{"Solver/Linear", "amg"}}},
+        Row{"materials",
+            heated("10 + y*x", {{"Material stiff/Where", "y - 2"},
+                                {"Material stiff/Young's modulus", "1500"},
+                                {"Material stiff/Thermal expansion", "0.001"}}),
+            {{"Material stiff/Initial strain", "0.01; 0; 0; -0.02"}},
+            {{"Material stiff/Initial strain", "0.01; 0; -0.02; 0; 0; 0"}}},
+        Row{"one_material_of_two",
+            {{"Material hot/Where", "2 - x"},
+             {"Material hot/Thermal expansion", "0.001"},
+             {"Temperature/Expression", "20"}},
+            pushed_in_plane,
+            pushed_in_space},
+        Row{"jump_between_cells", heated("if(x > 2, 20, y)"), {}, {}},
+        Row{"history", rough_bottom(heated("20*(t - t^2/2)*(1 + x/4)")), {}, {}},
+        Row{"history_with_friction",
+            rough_bottom(heated("20*t")),
+            {{"Boundary top/Traction", "0.3*t; -0.5"}},
+            {{"Boundary top/Traction", "0.3*t; -0.5; 0"}}}),
+    [](const auto &info) { return std::string(info.param.name); });
+
+/** Hexahedra that are no boxes, of a body that nothing holds but what it would do by itself. */
+Scene<3> free_foot(const Overrides &entries)
+{
+  return read_scene<3>("prm/foot.prm", joined({{{"Boundary bottom/Contact", "none"},
+                                                {"Boundary bottom/Friction coefficient", ""},
+                                                {"Boundary flank/Pressure", ""},
+                                                {"Solver/Primal tolerance", "1e-12"},
+                                                given::steps("hup2", "1"),
+                                                {"Probe inside/At", "0.1, 0.3, 0.2"}},
+                                               entries}));
+}
+
+/** All six components by their places: u = eps_0 x is without stress, and its energy is that of eps_0 over the body. */
+TEST(InitialStrain, OfAllComponentsStrainsAFreeBodyWithoutStress)
+{
+  const Scene<3> scene = free_foot(
+      {{"Material rubber/Initial strain", "0.01; -0.02; 0.03; 0.004; 0.005; -0.006"},
+       {"Boundary top/Displacement", "0.01*x + 0.004*y + 0.005*z; 0.004*x - 0.02*y - 0.006*z; "
+                                     "0.005*x - 0.006*y + 0.03*z"}});
+  double stored = 1;
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                const auto &u = step.probes.at(0).displacement;
+                EXPECT_NEAR(u[0].value, 0.0032, 1e-12);
+                EXPECT_NEAR(u[1].value, -0.0068, 1e-12);
+                EXPECT_NEAR(u[2].value, 0.0047, 1e-12);
+                for (const StressSample<3> &sample : step.extrema)
+                  EXPECT_LT(sample.value, 1e-11);
+                EXPECT_LT(step.norms.total, 1e-9);
+                stored = 0.5 * std::pow(step.energies.norm, 2) + step.primal->work_done().initial;
+                EXPECT_NEAR(step.energies.lagrangian, -0.5 * std::pow(step.energies.norm, 2),
+                            1e-12);
+              });
+  EXPECT_NEAR(stored, 0., 1e-12);
+}
+
+/** A temperature that is linear leaves a free body without stress: it bends, u of degree two. */
+TEST(InitialStrain, LinearTemperaturesBendAFreeBodyWithoutStress)
+{
+  const Scene<3> scene =
+      slab({given::box("4, 1, 1", "4, 1, 1"),
+            {"Boundary left/Traction", ""},
+            {"Boundary bottom/Contact", "none"},
+            {"Boundary bottom/Friction bound", ""},
+            {"Boundary right/Displacement", ""},
+            {"Boundary front/Displacement", "0.001*(x*x/2 - y*y/2); 0.001*x*y; 0"},
+            {"Material/Thermal expansion", "0.001"},
+            {"Temperature/Expression", "x"},
+            given::steps("hup2", "1")});
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                for (const StressSample<3> &sample : step.extrema)
+                  EXPECT_LT(sample.value, 1e-10);
+              });
+}
+
+/** Stress of heat alone, which acts as no load: supports balance each other, and tables name no other force. */
+TEST(InitialStrain, IsNoForce)
+{
+  const Scene<3> scene = slab({{"Boundary left/Traction", ""},
+                               {"Boundary left/Displacement", "0; free; free"},
+                               {"Boundary bottom/Contact", "none"},
+                               {"Boundary bottom/Friction bound", ""},
+                               {"Material/Thermal expansion", "0.001"},
+                               {"Temperature/Expression", "10 + y*z"},
+                               given::steps("hap2", "2")});
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                EXPECT_LT(step.equilibrium.force_imbalance, 1e-9);
+                EXPECT_LT(step.equilibrium.moment_imbalance, 1e-9);
+                EXPECT_EQ(step.equilibrium.loads.force.norm(), 0.);
+                ASSERT_EQ(step.forces.size(), 2u);
+                EXPECT_NEAR(step.forces[0].force[0].value, -step.forces[1].force[0].value, 1e-8);
+                EXPECT_GT(std::abs(step.forces[0].force[0].value), 0.1);
+              });
+}
+} // namespace
