@@ -401,11 +401,13 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
 {
   Warnings result;
   const Tensor<2, dim> initial_stress = system->initial_stress();
+  const Tensor<1, 2> springs = system->spring_stiffness();
   collectively(space->communicator(),
                [&]()
                {
-                 for (const std::string &line : {LoadCheck<dim>(scene).warning(balance.loads),
-                                                 strain_warning(scene, initial_stress)})
+                 for (const std::string &line :
+                      {LoadCheck<dim>(scene).warning(balance.loads),
+                       strain_warning(scene, initial_stress), spring_warning(scene, springs)})
                    if (!line.empty())
                      result.push_back({WarningKind::load, 0., line});
                });

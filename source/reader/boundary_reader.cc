@@ -214,16 +214,19 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
 }
 
 /** Glued on before anything happens: springs know no time. */
-void read_spring(const Parameters &parameters, const ExpressionReader<2> &expressions,
-                 const std::string &section, const std::vector<Point<2>> &points,
-                 BoundaryCondition<2> &boundary)
+template <int dim>
+void read_spring(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+                 const std::string &section, const std::vector<Point<dim>> &points,
+                 BoundaryCondition<dim> &boundary)
 {
   static const std::regex t("\\bt\\b");
   if (std::regex_search(parameters.text(section, "Spring"), t))
-    parameters.reject(section, "Spring", "uses t, and springs stay; write functions of x and y");
-  const auto k = expressions.read<2>(section, "Spring", "0", points);
-  for (const Expression<2> &component : k)
-    for (const Point<2> &x : points)
+    parameters.reject(section, "Spring",
+                      "uses t, and springs stay; write functions of " +
+                          std::string(dim == 2 ? "x and y" : "x, y and z"));
+  const auto k = expressions.template read<2>(section, "Spring", "0", points);
+  for (const Expression<dim> &component : k)
+    for (const Point<dim> &x : points)
       if (component && component->value(x) < 0)
         parameters.reject(section, "Spring",
                           "is negative at " + to_string(x) +
@@ -315,12 +318,10 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
       expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
   read_loads<dim>(expressions, section, side, exact_traction, boundary);
   boundary.symmetry = parameters.boolean(section, "Symmetry");
+  read_spring(parameters, expressions, section, points, boundary);
   if constexpr (dim == 2)
-  {
-    read_spring(parameters, expressions, section, points, boundary);
     read_plate(parameters, expressions, section, points, scene.thickness, scene.is_axisymmetric(),
                boundary);
-  }
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
   if constexpr (dim == 2)
     read_direction(parameters, expressions, section, boundary);

@@ -58,6 +58,9 @@ std::vector<Alias> hints_about_conditions()
         "prestrain", "shrinkage"},
        "strains without load are \"Material/Initial strain\" = e1; e2; e12, or "
        "\"Material/Thermal expansion\" with \"Temperature/Expression\""},
+      {{"springs", "foundation stiffness", "bedding", "elastic foundation", "winkler",
+        "winkler foundation"},
+       "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
       {{"penalty", "contact stiffness", "penalty parameter"},
        "contact has no constant to choose; remove it"}};
 }
@@ -150,8 +153,6 @@ std::vector<Alias> hints_in_plane()
        "set \"Material/Elasticity\" = orthotropic, \"Material/Young's moduli\" = E1, E2, E3, "
        "\"Material/Poisson's ratios\" = nu12, nu13, nu23, \"Material/Shear moduli\" = G12 and "
        "\"Material/Angle\""},
-      {{"springs", "foundation stiffness", "bedding", "winkler foundation"},
-       "an elastic foundation is \"Boundary bottom/Spring\" = kn; kt"},
       {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force"},
        "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
        "\"Boundary top/Force\" = Fx; Fy"},
@@ -172,8 +173,6 @@ std::vector<Alias> hints_in_space()
   return {{orthotropic, "only a body in the plane may be orthotropic; remove it"},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
           {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
-          {{"spring", "elastic foundation", "winkler"},
-           "only a body in the plane has springs; remove it"},
           {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},
           {{"size"},
            "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\", and a "

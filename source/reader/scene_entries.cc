@@ -31,6 +31,7 @@ std::string in_space(std::string text)
       {"ux; uy", "ux; uy; uz"},
       {"Gx; Gy", "Gx; Gy; Gz"},
       {"gx; gy", "gx; gy; gz"},
+      {"u_t t", "u_t"},
       {"e1; e2; e12", "e1; e2; e3; e12; e13; e23"},
       {", `exact` for one or all of the exact solution", ""},
       {", or `exact`", ""}};
@@ -285,9 +286,9 @@ void add_program_entries(std::vector<Entry> &entries)
 /** What only a plane scene has. */
 bool is_of_the_plane(const Entry &entry)
 {
-  return entry.section == "Exact solution" || entry.name == "Shear" || entry.name == "Spring" ||
-         entry.name == "Rigid" || entry.name == "Force" || entry.name == "Rotation" ||
-         entry.name == "Moment" || entry.name == "Contact direction" ||
+  return entry.section == "Exact solution" || entry.name == "Shear" || entry.name == "Rigid" ||
+         entry.name == "Force" || entry.name == "Rotation" || entry.name == "Moment" ||
+         entry.name == "Contact direction" ||
          (entry.section == "Solver" &&
           (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
            entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||

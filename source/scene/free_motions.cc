@@ -149,6 +149,38 @@ void add_springs(const BoundaryCondition<2> &boundary, const Side<2> &side, cons
     }
 }
 
+/** Likewise in space, where a piece is a quadrilateral; along it springs hold in both directions. */
+void add_springs(const BoundaryCondition<3> &boundary, const Side<3> &side, const Point<3> &centre,
+                 const double length, std::vector<RigidMotion<3>> &held)
+{
+  constexpr unsigned int n = 44; // 2000 points, as in the plane
+  const auto acts = [](const Expression<3> &stiffness, const Side<3>::Piece &corners)
+  {
+    for (unsigned int i = 0; stiffness && i < n * n; ++i)
+    {
+      const double s = (i % n + 0.5) / n, t = (i / n + 0.5) / n;
+      const Point<3> low = corners[0] + s * (corners[1] - corners[0]),
+                     high = corners[2] + s * (corners[3] - corners[2]);
+      if (stiffness->value(low + t * (high - low)) != 0)
+        return true;
+    }
+    return false;
+  };
+  for (const Side<3>::Piece &corners : side.pieces)
+  {
+    const Tensor<1, 3> normal = side.is_flat() ? side.outward : normal_of(corners);
+    std::vector<Tensor<1, 3>> directions;
+    if (acts(boundary.spring.normal, corners))
+      directions.push_back(normal);
+    if (acts(boundary.spring.tangential, corners))
+      for (const Tensor<1, 3> &tangent : contact_axes(normal).tangents)
+        directions.push_back(tangent);
+    for (const Point<3> &corner : corners)
+      for (const Tensor<1, 3> &direction : directions)
+        held.push_back(row_of(direction, (corner - centre) / length));
+  }
+}
+
 /** Where conditions on motions are asked for on a side, with its normals: at the corners of each piece, and along curves. */
 template <int dim>
 std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_on(const Side<dim> &side)
@@ -196,14 +228,14 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
           for (const Tensor<1, dim> &tangent : contact_axes(normal).tangents)
             rows.resisted.push_back(row_of(tangent, arm));
     }
-  if constexpr (dim == 2)
-    for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-      if (!is_other(boundary))
-      {
-        add_springs(boundary, sides[boundary.id], centre, length, rows.held);
+  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
+    if (!is_other(boundary))
+    {
+      add_springs(boundary, sides[boundary.id], centre, length, rows.held);
+      if constexpr (dim == 2)
         if (boundary.plate)
           add_plate(scene, boundary, centre, length, rows.held);
-      }
+    }
   if constexpr (dim == 2)
     if (scene.is_axisymmetric()) // strains around the axis: the way along it alone is rigid
       for (const RigidMotion<dim> &motion : {RigidMotion<dim>{{1, 0, 0}}, {{0, 0, 1}}})

@@ -40,9 +40,21 @@ bool BoundaryCondition<dim>::exerts_forces() const
 }
 
 template <int dim>
+std::array<double, 2> Spring<dim>::at(const Point<dim> &x) const
+{
+  return {{normal ? normal->value(x) : 0., tangential ? tangential->value(x) : 0.}};
+}
+
+template <int dim>
+bool Spring<dim>::varies() const
+{
+  return (normal && !is_constant<dim>(normal)) || (tangential && !is_constant<dim>(tangential));
+}
+
+template <int dim>
 Tensor<2, dim> Spring<dim>::stiffness(const Point<dim> &x, const Tensor<1, dim> &n) const
 {
-  const double k_n = normal ? normal->value(x) : 0., k_t = tangential ? tangential->value(x) : 0.;
+  const auto [k_n, k_t] = at(x);
   return k_t * Tensor<2, dim>(unit_symmetric_tensor<dim>()) + (k_n - k_t) * outer_product(n, n);
 }
 

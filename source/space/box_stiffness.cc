@@ -64,7 +64,8 @@ FullMatrix<double> in_basis(const FullMatrix<double> &K, const FullMatrix<double
 
 template <int dim>
 BoxStiffness<dim>::BoxStiffness(const PrimalSpace<dim> &space)
-    : space(space), none(dim * GeometryInfo<dim>::faces_per_cell, false)
+    : space(space), foundation(space.scene, space.tables),
+      none(dim * GeometryInfo<dim>::faces_per_cell, false)
 {
 }
 
@@ -109,8 +110,9 @@ const FullMatrix<double> *BoxStiffness<dim>::known(const CellMap<dim> &map,
   return &parallelepipeds.back()->K;
 }
 
+/** Of nodal values, without springs. */
 template <int dim>
-const FullMatrix<double> &BoxStiffness<dim>::nodal(const Cell &cell) const
+const FullMatrix<double> &BoxStiffness<dim>::of_body(const Cell &cell) const
 {
   if (!space.scene.geometry.has_mesh())
     return of_box(cell, none);
@@ -121,10 +123,22 @@ const FullMatrix<double> &BoxStiffness<dim>::nodal(const Cell &cell) const
 }
 
 template <int dim>
+const FullMatrix<double> &BoxStiffness<dim>::nodal(const Cell &cell) const
+{
+  const Matrix &K = of_body(cell);
+  if (!foundation.holds(cell))
+    return K;
+  if (&K != &last)
+    last = K;
+  foundation.add_to(last, cell);
+  return last;
+}
+
+template <int dim>
 const FullMatrix<double> &BoxStiffness<dim>::operator()(const Cell &cell) const
 {
   const std::vector<bool> components = space.moment_components(cell);
-  if (!space.scene.geometry.has_mesh())
+  if (!space.scene.geometry.has_mesh() && !foundation.holds(cell))
     return of_box(cell, components);
   const Matrix &K = nodal(cell);
   return any(components) ? last = in_basis(K, basis_of_moments(space, cell)) : K;
@@ -136,10 +150,11 @@ std::vector<double> BoxStiffness<dim>::diagonal(const Cell &cell) const
   std::vector<double> result(space.tables.fe.dofs_per_cell);
   const bool is_box = !space.scene.geometry.has_mesh();
   const CellMap<dim> map = map_of<dim>(cell);
+  foundation.add_to_diagonal(result, cell);
   if (const Matrix *const K = is_box ? &of_box(cell, none) : known(map, cell->material_id()))
   {
     for (unsigned int i = 0; i < result.size(); ++i)
-      result[i] = (*K)(i, i);
+      result[i] += (*K)(i, i);
     return result;
   }
   const CellGradients<dim> of_cell(space.tables.cell, map);
@@ -153,7 +168,7 @@ std::vector<double> BoxStiffness<dim>::diagonal(const Cell &cell) const
           products[a][b] +=
               of_cell.volumes[q] * of_cell.gradients[a](q, i) * of_cell.gradients[b](q, i);
     for (unsigned int c = 0; c < dim; ++c)
-      result[space.tables.numbers[i][c]] = law.stiffness(
+      result[space.tables.numbers[i][c]] += law.stiffness(
           [&](const unsigned int a, const unsigned int b) { return products[a][b]; }, c, c);
   }
   return result;
@@ -162,6 +177,28 @@ std::vector<double> BoxStiffness<dim>::diagonal(const Cell &cell) const
 template <int dim>
 void BoxStiffness<dim>::multiply(const Cell &cell, Vector<double> &result,
                                  const Vector<double> &u) const
+{
+  multiply_body(cell, result, u);
+  if (!foundation.holds(cell))
+    return;
+  const auto &numbers = space.tables.numbers;
+  CellField<dim> field(numbers.size());
+  for (unsigned int i = 0; i < numbers.size(); ++i)
+    for (unsigned int c = 0; c < dim; ++c)
+      field[i][c] = u[numbers[i][c]];
+  for (const SpringsOfFace<dim> &springs : foundation.below(cell))
+  {
+    const std::vector<Tensor<1, dim>> forces = springs.forces(field);
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        result[numbers[springs.shapes[i]][c]] += forces[i][c];
+  }
+}
+
+/** Without springs. */
+template <int dim>
+void BoxStiffness<dim>::multiply_body(const Cell &cell, Vector<double> &result,
+                                      const Vector<double> &u) const
 {
   if (!space.scene.geometry.has_mesh())
     return of_box(cell, none).vmult(result, u);

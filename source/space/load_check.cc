@@ -202,7 +202,7 @@ std::string LoadCheck<dim>::warning(const BoundaryForce<dim> &loads) const
          " by the finer rule; take more Geometry/Subdivisions";
 }
 
-// @sect3{Initial strains}
+// @sect3{Initial strains and springs}
 //
 namespace
 {
@@ -302,8 +302,36 @@ std::string strain_warning(const Scene<dim> &scene, const Tensor<2, dim> &stress
   return comparison.warning(components<dim>(stresses), "stress over a coarse cell");
 }
 
+template <int dim>
+std::string spring_warning(const Scene<dim> &scene, const Tensor<1, 2> &stiffness)
+{
+  if (!scene.has_springs())
+    return {};
+  Triangulation<dim> mesh;
+  make_mesh(scene, mesh);
+  Comparison<dim, 2> comparison(scene);
+  for (const auto &cell : mesh.cell_iterators_on_level(0))
+    for (const unsigned int face : cell->face_indices())
+    {
+      if (!cell->at_boundary(face))
+        continue;
+      const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(face)->boundary_id()];
+      if (condition.spring)
+        comparison.look(map_of<dim>(cell), face, condition.spring.varies(),
+                        "Spring on " + condition.name,
+                        [&](const Point<dim> &x)
+                        {
+                          const auto [k_n, k_t] = condition.spring.at(x);
+                          return Tensor<1, 2>({k_n, k_t});
+                        });
+    }
+  return comparison.warning(stiffness, "stiffness on a coarse face");
+}
+
 template struct LoadCheck<2>;
 template struct LoadCheck<3>;
 template std::string strain_warning(const Scene<2> &, const Tensor<2, 2> &);
 template std::string strain_warning(const Scene<3> &, const Tensor<2, 3> &);
+template std::string spring_warning(const Scene<2> &, const Tensor<1, 2> &);
+template std::string spring_warning(const Scene<3> &, const Tensor<1, 2> &);
 } // namespace hpvi

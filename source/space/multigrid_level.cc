@@ -42,6 +42,7 @@ MultigridLevel<Number>::MultigridLevel(const PrimalSpace<3> &space)
   for (const unsigned int i : cells->constrained())
     if (i < space.owned.n_elements())
       constrained.push_back(i);
+  find_springs();
   if constexpr (std::is_same_v<Number, float>) // smoothers have no more digits
     find_entries(BoxStiffness<3>(space));
 }
@@ -158,11 +159,64 @@ void MultigridLevel<Number>::set_blocks(const PrimalSpace<3>::Cell &cell,
 }
 
 template <typename Number>
+void MultigridLevel<Number>::find_springs()
+{
+  const ElasticFoundation<3> foundation(space.scene, space.tables);
+  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && foundation.holds(cell))
+    {
+      cell->get_dof_indices(dofs);
+      for (SpringsOfFace<3> &face : foundation.below(cell))
+      {
+        springs.push_back({std::move(face), {}});
+        for (const unsigned int shape : springs.back().of_face.shapes)
+          for (unsigned int c = 0; c < 3; ++c)
+          {
+            auto &elements = springs.back().nodes.emplace_back();
+            resolve(dofs[space.tables.numbers[shape][c]],
+                    [&](const unsigned int local, const double weight)
+                    { elements.emplace_back(local, weight); });
+          }
+      }
+    }
+}
+
+/** What springs do where nodes move by x, as the product with cells does. */
+template <typename Number>
+void MultigridLevel<Number>::add_springs(Vector &y, Vector &x) const
+{
+  const bool knows_neighbours = x.has_ghost_elements();
+  x.update_ghost_values();
+  CellField<3> u(space.tables.n_shapes);
+  for (const Springs &face : springs)
+  {
+    const std::vector<unsigned int> &shapes = face.of_face.shapes;
+    for (unsigned int i = 0; i < face.nodes.size(); ++i)
+    {
+      double sum = 0;
+      for (const auto &[local, weight] : face.nodes[i])
+        sum += weight * x.local_element(local);
+      u[shapes[i / 3]][i % 3] = sum;
+    }
+    const std::vector<Tensor<1, 3>> forces = face.of_face.forces(u);
+    for (unsigned int i = 0; i < face.nodes.size(); ++i)
+      for (const auto &[local, weight] : face.nodes[i])
+        y.local_element(local) += weight * forces[i / 3][i % 3];
+  }
+  y.compress(VectorOperation::add);
+  if (!knows_neighbours)
+    x.zero_out_ghost_values();
+}
+
+template <typename Number>
 void MultigridLevel<Number>::multiply(Vector &y, const Vector &x) const
 {
   Vector &nodal = const_cast<Vector &>(x); // as it was when this returns
   contact_dofs->to_nodes(nodal, &kept);
   cells->multiply(y, nodal);
+  if (space.scene.has_springs())
+    add_springs(y, nodal);
   contact_dofs->restore(nodal, kept);
   contact_dofs->to_nodes_transposed(y);
 }

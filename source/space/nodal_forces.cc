@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/space/elastic_foundation.h>
 #include <hpvi/space/nodal_forces.h>
 
 #include <hpvi/base/processes.h>
@@ -57,6 +58,7 @@ private:
   void carry_to_masters();
 
   const PrimalSpace<dim> &space;
+  const DistributedVector &u;
   DistributedVector loads, reactions;
   struct Node
   {
@@ -73,7 +75,7 @@ template <int dim>
 NodalReactions<dim>::NodalReactions(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
                                     const DistributedVector &u,
                                     const std::vector<ContactVector<dim>> &lambda)
-    : space(space), nodes(space.owned.n_elements())
+    : space(space), u(u), nodes(space.owned.n_elements())
 {
   auto forces = system.nodal_forces(u);
   loads.swap(forces.loads);
@@ -204,6 +206,30 @@ void NodalReactions<dim>::find_nodes()
   }
 }
 
+/** What springs exert, which are a part of a(u, v_i) and no reaction there. */
+template <int dim>
+void add_springs(const PrimalSpace<dim> &space, const DistributedVector &u,
+                 std::vector<typename NodalForces<dim>::Reaction> &reactions)
+{
+  const ElasticFoundation<dim> foundation(space.scene, space.tables);
+  for (const auto &cell : space.dof_handler.active_cell_iterators())
+    if (cell->is_locally_owned() && foundation.holds(cell))
+    {
+      const CellMap<dim> map = map_of<dim>(cell);
+      for (const SpringsOfFace<dim> &springs : foundation.below(cell))
+      {
+        const std::vector<Tensor<1, dim>> forces = springs.forces(space.field(cell, u));
+        for (unsigned int i = 0; i < forces.size(); ++i)
+        {
+          const unsigned int node = space.tables.numbers[springs.shapes[i]][0];
+          reactions.push_back({springs.boundary, -forces[i],
+                               map.point(space.tables.fe.unit_support_point(node)),
+                               body_of<dim>(space.scene.geometry, cell), true});
+        }
+      }
+    }
+}
+
 /** By the rule of the path, face by face. */
 template <int dim>
 std::vector<typename NodalForces<dim>::Traction> tractions(const PrimalSpace<dim> &space)
@@ -250,7 +276,12 @@ NodalForces<dim> NodalReactions<dim>::forces() const
       result.reactions.push_back({boundary, force, node.x, node.body});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
-  collectively(space.communicator(), [&]() { result.tractions = tractions(space); });
+  collectively(space.communicator(),
+               [&]()
+               {
+                 result.tractions = tractions(space);
+                 add_springs(space, u, result.reactions);
+               });
   return result;
 }
 } // namespace

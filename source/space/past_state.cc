@@ -20,7 +20,7 @@ PastState<dim> end_state(const PrimalSpace<dim> &space, const DistributedVector 
   for (unsigned int k = 0; k < space.contact.size(); ++k)
     result.traction.push_back(space.contact[k].bound_by(lambda) * lambda[k]);
   for (const auto &reaction : forces.reactions)
-    if (space.scene.boundaries[reaction.boundary].has_displacement())
+    if (!reaction.is_of_springs && space.scene.boundaries[reaction.boundary].has_displacement())
       result.supports.push_back(reaction);
   return result;
 }

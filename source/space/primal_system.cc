@@ -312,6 +312,26 @@ Tensor<2, dim> PrimalSystem<dim>::initial_stress() const
 }
 
 template <int dim>
+Tensor<1, 2> PrimalSystem<dim>::spring_stiffness() const
+{
+  Tensor<1, 2> sum;
+  if (!space.scene.has_springs())
+    return sum;
+  const ElasticFoundation<dim> foundation(space.scene, space.tables);
+  collectively(space.communicator(),
+               [&]()
+               {
+                 for (const Cell &cell : space.dof_handler.active_cell_iterators())
+                   if (cell->is_locally_owned() && foundation.holds(cell))
+                     for (const SpringsOfFace<dim> &springs : foundation.below(cell))
+                       sum += ElasticFoundation<dim>::stiffness(springs);
+               });
+  for (unsigned int k = 0; k < 2; ++k)
+    sum[k] = Utilities::MPI::sum(sum[k], space.communicator());
+  return sum;
+}
+
+template <int dim>
 double PrimalSystem<dim>::initial_energy(const DistributedVector &u) const
 {
   return strains ? strains->energy(u) : 0.;

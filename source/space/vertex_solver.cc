@@ -120,14 +120,17 @@ void VertexSolver::assemble()
   }
   const Point<3> centre = space.scene.geometry.centre();
   const double length = space.scene.geometry.radius();
+  const ElasticFoundation<3> foundation(space.scene, tables);
   motions.resize(owned.n_elements() * n_motions<3>);
   std::vector<Dof> dofs(tables.fe.dofs_per_cell);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       cell->get_dof_indices(dofs);
-      constraints.distribute_local_to_global(
-          tables.stiffness(HookesLaw<3>(space.scene.material_of(cell)), map_of<3>(cell)), dofs, A);
+      FullMatrix<double> K =
+          tables.stiffness(HookesLaw<3>(space.scene.material_of(cell)), map_of<3>(cell));
+      foundation.add_to(K, cell);
+      constraints.distribute_local_to_global(K, dofs, A);
       for (unsigned int j = 0; j < 8; ++j)
         for (unsigned int c = 0; c < 3; ++c)
           if (const Dof dof = dofs[tables.numbers[j][c]];

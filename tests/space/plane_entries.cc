@@ -183,6 +183,57 @@ INSTANTIATE_TEST_SUITE_P(
             {{"Boundary top/Traction", "0.3*t; -0.5; 0"}}}),
     [](const auto &info) { return std::string(info.param.name); });
 
+/** Glued to a foundation at the bottom, below a load. */
+Overrides on_springs(const std::string &stiffness, const Overrides &more = {})
+{
+  return Overrides{{"Boundary bottom/Spring", stiffness}} + more;
+}
+
+const Overrides without_support{{"Boundary right/Displacement", ""}};
+
+INSTANTIATE_TEST_SUITE_P(
+    Springs, PlaneEntries,
+    ::testing::Values(
+        Row{"hold_the_body", on_springs("2; 3", without_support), pushed_in_plane, pushed_in_space},
+        Row{"along_the_normal", on_springs("5; 0"), pushed_in_plane, pushed_in_space},
+        Row{"vary", on_springs("2 + x^2; 1 + x", without_support), pushed_in_plane,
+            pushed_in_space},
+        Row{"stiff", on_springs("1e6; 1e5", without_support), pushed_in_plane, pushed_in_space},
+        Row{"factorised", on_springs("2; 3", {without_support, {"Solver/Linear", "direct"}}),
+            pushed_in_plane, pushed_in_space},
+        Row{"algebraic_multigrid",
+            on_springs("2; 3", without_support),
+            pushed_in_plane,
+            {pushed_in_space, {"Solver/Linear", "amg"}}},
+        Row{"beside_a_load",
+            {},
+            {{"Boundary left/Traction", "0.4; -0.2"}, {"Boundary left/Spring", "3; 1"}},
+            {{"Boundary left/Traction", "0.4; -0.2; 0"}, {"Boundary left/Spring", "3; 1"}}},
+        Row{"beside_a_displacement",
+            {},
+            {{"Boundary left/Displacement", "0.1; free"}, {"Boundary left/Spring", "3; 1"}},
+            {{"Boundary left/Displacement", "0.1; free; free"}, {"Boundary left/Spring", "3; 1"}}},
+        Row{"on_hot_materials",
+            on_springs("2; 3", {without_support,
+                                heated("10 + x", {{"Material stiff/Where", "y - 2"},
+                                                  {"Material stiff/Young's modulus", "1500"}})}),
+            {},
+            {}},
+        Row{"beside_contact",
+            {{"Boundary bottom/Contact", "unilateral"},
+             {"Boundary bottom/Friction coefficient", "0.3"},
+             {"Boundary left/Spring", "1; 2"},
+             {"Adaptivity/Maximum steps", "1"},
+             {"Boundary right/Displacement", ""}},
+            {{"Boundary top/Traction", "0.1; -0.5"}},
+            {{"Boundary top/Traction", "0.1; -0.5; 0"}}},
+        Row{"history",
+            rough_bottom({{"Boundary left/Spring", "1; 2"}, {"Boundary right/Spring", "x; 1"}}),
+            {{"Boundary right/Displacement", "0.1*t; free"}, {"Boundary top/Traction", "0; -0.5"}},
+            {{"Boundary right/Displacement", "0.1*t; free; free"},
+             {"Boundary top/Traction", "0; -0.5; 0"}}}),
+    [](const auto &info) { return std::string(info.param.name); });
+
 /** Hexahedra that are no boxes, of a body that nothing holds but what it would do by itself. */
 Scene<3> free_foot(const Overrides &entries)
 {

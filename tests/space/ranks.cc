@@ -128,6 +128,18 @@ TEST(Ranks, HeldByContactAlone)
   }
 }
 
+/** Springs on refined meshes, of degree 2 and 3, by multigrid and without. */
+TEST(Ranks, Springs)
+{
+  for (const auto &[method, steps, linear] :
+       {std::tuple("hap2", "2", "multigrid"), {"hap2", "2", "direct"}, {"hap3", "1", "multigrid"}})
+    expect_same_run(slab({{"Boundary right/Displacement", ""},
+                          {"Boundary right/Spring", "3 + y*z; 1"},
+                          {"Geometry/Subdivisions", "2, 2, 1"},
+                          {"Solver/Linear", linear},
+                          given::steps(method, steps)}));
+}
+
 TEST(Ranks, HeatAndInitialStrain)
 {
   expect_same_run(slab({{"Boundary bottom/Contact", "unilateral"},

@@ -155,6 +155,20 @@ TEST(Warnings, InSpaceOfHeatThatNoRuleResolves)
   EXPECT_FALSE(warns({{"Temperature/Expression", "1 + x*y*z"}}, ""));
 }
 
+TEST(Warnings, InSpaceOfSpringsThatNoRuleResolves)
+{
+  const auto warns = [](const std::string &springs)
+  {
+    return has(by_primal_path(block<3>({{"Boundary right/Spring", springs},
+                                        {"Geometry/Subdivisions", "1, 1, 1"},
+                                        {"Boundary left/Traction", "1e-3; 0; 0"}})),
+               WarningKind::load,
+               "Spring on right is not resolved near (1 0.5 0.5): there its stiffness on a coarse");
+  };
+  EXPECT_TRUE(warns("1; if(y < 0.3, 1, 0)"));
+  EXPECT_FALSE(warns("1 + y*z; y^2"));
+}
+
 TEST(Warnings, StandOnBothPathsInThePlaneAndInSpace)
 {
   for (const Case &row : cases())

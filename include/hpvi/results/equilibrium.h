@@ -97,6 +97,7 @@ struct NodalForces
     dealii::Tensor<1, dim> force;
     dealii::Point<dim> x;
     unsigned int body = 0;
+    bool is_of_springs = false; ///< they do no work on what supports prescribe
   };
 
   /** A force by itself, not one of nodes. */

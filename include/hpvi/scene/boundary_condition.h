@@ -41,6 +41,9 @@ struct Spring
     return normal || tangential;
   }
 
+  std::array<double, 2> at(const dealii::Point<dim> &x) const; ///< k_n and k_t there
+  bool varies() const;                                         ///< is one of them no constant?
+
   /** `k_n n n' + k_t (I - n n')` there: -traction = stiffness u [stress/length]. */
   dealii::Tensor<2, dim> stiffness(const dealii::Point<dim> &x,
                                    const dealii::Tensor<1, dim> &n) const;

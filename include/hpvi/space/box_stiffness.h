@@ -2,6 +2,7 @@
 #ifndef hpvi_box_stiffness_h
 #define hpvi_box_stiffness_h
 
+#include <hpvi/space/elastic_foundation.h>
 #include <hpvi/space/primal_space.h>
 
 #include <map>
@@ -11,8 +12,8 @@
 namespace hpvi
 {
 /**
- * Stiffness matrices of cells, K or T'KT in the basis of contact dofs. Boxes of one size, material and set of components with contact dofs
- * share one; of a mesh from a file parallelepipeds without contact dofs do, others are made when they are asked for.
+ * Stiffness matrices of cells and of the springs below them, K or T'KT in the basis of contact dofs. Boxes of one size, material and set of components with contact dofs
+ * share one where no springs hold them; of a mesh from a file parallelepipeds without contact dofs do, others are made when they are asked for.
  */
 template <int dim>
 class BoxStiffness
@@ -37,12 +38,16 @@ public:
                 const dealii::Vector<double> &u) const;
 
 private:
+  void multiply_body(const Cell &cell, dealii::Vector<double> &result,
+                     const dealii::Vector<double> &u) const;
+  const Matrix &of_body(const Cell &cell) const;
   const Matrix &of_box(const Cell &cell, const std::vector<bool> &moment_components) const;
   unsigned int size_class(const Cell &cell) const;
   const Matrix *known(const CellMap<dim> &map, dealii::types::material_id material) const;
   HookesLaw<dim> law(const Cell &cell) const;
 
   const PrimalSpace<dim> &space;
+  const ElasticFoundation<dim> foundation;
   const std::vector<bool> none;
   mutable std::vector<dealii::Tensor<1, dim>> sizes; ///< by size_class(), of cells that differ
   mutable std::map<std::tuple<unsigned int, unsigned int, std::vector<bool>>, Matrix> matrices;

@@ -40,6 +40,10 @@ struct LoadCheck
  */
 template <int dim>
 std::string strain_warning(const Scene<dim> &scene, const dealii::Tensor<2, dim> &stresses);
+
+/** And of springs by `int k_n` and `int k_t` over their faces [stress length^(dim-2)]. */
+template <int dim>
+std::string spring_warning(const Scene<dim> &scene, const dealii::Tensor<1, 2> &stiffness);
 } // namespace hpvi
 
 #endif

@@ -54,6 +54,8 @@ public:
   }
 
 private:
+  void find_springs();
+  void add_springs(Vector &y, Vector &x) const;
   void find_entries(const BoxStiffness<3> &stiffness);
   void add_diagonal(const PrimalSpace<3>::Cell &cell, const dealii::FullMatrix<double> &K,
                     std::vector<Number> &far);
@@ -62,6 +64,13 @@ private:
   dealii::AffineConstraints<Number> constraints; ///< as of the space, in its own numbers
   std::unique_ptr<CellOperator<Number>> cells;
   std::unique_ptr<ContactDofTransform<Number>> contact_dofs;
+  /** Springs of a face, between local elements and their weights at the nodes of the face, component by component of each. */
+  struct Springs
+  {
+    SpringsOfFace<3> of_face;
+    std::vector<std::vector<std::pair<unsigned int, Number>>> nodes;
+  };
+  std::vector<Springs> springs;          ///< of this process
   Vector inverse_diagonal;               ///< of floats alone
   std::vector<unsigned int> constrained; ///< of this process
   mutable std::vector<Number> kept;

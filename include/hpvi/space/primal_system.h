@@ -36,7 +36,9 @@ public:
   /** Of L(v_i) what initial strains do, which balance themselves. Collective. */
   DistributedVector strain_loads() const;
 
-  dealii::Tensor<2, dim> initial_stress() const;           ///< StrainLoads::stress(), 0 without
+  dealii::Tensor<2, dim> initial_stress() const; ///< StrainLoads::stress(), 0 without
+  dealii::Tensor<1, 2>
+  spring_stiffness() const; ///< of all faces, ElasticFoundation::stiffness(). Collective
   double initial_energy(const DistributedVector &u) const; ///< StrainLoads::energy(), likewise
 
   /** A, assembled when it is asked for first: matrix-free methods never do. Collective. */

@@ -212,7 +212,7 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
                      "is not offered by " + why + "; run the reduced path on one process",
                      "axisymmetric"};
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.spring)
+    if (dim == 2 && boundary.spring)
       return Objection{section_of(boundary), "Spring",
                        "is not offered by " + why +
                            "; run the reduced path on one process, or remove it"};

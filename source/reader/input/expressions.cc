@@ -524,6 +524,9 @@ template class ExpressionReader<3>;
 template std::array<ExpressionReader<3>::Expression, 1>
 ExpressionReader<3>::read<1>(const std::string &, const std::string &, const std::string &,
                              const std::vector<Point<3>> &, const ExactField &) const;
+template std::array<ExpressionReader<3>::Expression, 2>
+ExpressionReader<3>::read<2>(const std::string &, const std::string &, const std::string &,
+                             const std::vector<Point<3>> &, const ExactField &) const;
 template std::array<ExpressionReader<3>::Expression, 3>
 ExpressionReader<3>::read<3>(const std::string &, const std::string &, const std::string &,
                              const std::vector<Point<3>> &, const ExactField &) const;
