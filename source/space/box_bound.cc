@@ -804,6 +804,10 @@ std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u
     return "contact alone holds the body";
   if (space.past)
     return "slip is counted from the load step before";
+  if (scene.has_springs())
+    return "springs hold the body";
+  if (scene.has_initial_strain())
+    return "a material has an initial strain";
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
     if (boundary.contact == Contact::bilateral && boundary.gap)
       return "bilateral contact has a gap";

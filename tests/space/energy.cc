@@ -157,6 +157,9 @@ TEST(BoxBound, SaysWhyThereIsNone)
       {{given::coulomb("0.3")}, "contact that does not open"},
       {{given::coulomb("0.3"), {"Boundary bottom/Contact", "unilateral"}}, "coupling"},
       {{{"Boundary right/Displacement", "0.01*sin(y); 0; 0"}}, "no polynomials"},
+      {{{"Boundary left/Spring", "10"}}, "springs"},
+      {{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", "10 + x"}},
+       "initial strain"},
       {{{"Error/Bound", "false"}}, "Error/Bound = false"}};
   for (const auto &[entries, why] : cases)
   {
