@@ -257,9 +257,7 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
                    (face.condition->friction.by_pressure ? "by a curve" : "up to a bound alone");
       return;
     }
-  if (!elements)
-    elements = std::make_unique<CondensedElements<2>>(solution.scene, solution.tables);
-  const CoulombCoupling couple(solution, *elements);
+  const CoulombCoupling couple(solution, spaces);
   const auto bound = [&](const SlipDirection &chi)
   {
     const Excess excess(solution, correction, chi);

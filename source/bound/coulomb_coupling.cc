@@ -16,11 +16,8 @@ using namespace dealii;
 
 namespace
 {
-/** What spaces of degrees p + 1 still miss of theta: a percent or two, as a rule. */
+/** What spaces still miss of theta: a percent or two, as a rule. */
 constexpr double margin = 1.05;
-
-/** Stiffness against tractions that would push along a free motion, over the largest of S. */
-constexpr double hold = 1e5;
 
 /** An edge of the boundary at one of its vertices. */
 struct BoundaryEdge
@@ -63,6 +60,15 @@ std::vector<Tensor<1, 2>> held_directions(const BoundaryEdge &edge, const bool o
   if (condition.is_tied() || (of_X && condition.has_contact() && condition.friction))
     result.push_back(tangent);
   return result;
+}
+
+/** Do v and X vanish at an edge of the boundary? */
+bool is_clamped(const BoundaryEdge &edge)
+{
+  const std::vector<Tensor<1, 2>> held = held_directions(edge, false);
+  return std::any_of(held.begin(), held.end(),
+                     [&](const Tensor<1, 2> &direction)
+                     { return std::abs(cross_product_2d(held.front()) * direction) > 1e-6; });
 }
 
 /** The angle of the body at a vertex. */
@@ -214,83 +220,105 @@ double largest_eigenvalue(const FullMatrix<double> &C, const Vector<double> &D,
   return value;
 }
 
-CoulombCoupling::CoulombCoupling(const Solution<2> &solution, CondensedElements<2> &elements)
-    : solution(solution)
+double clamped_wedge_coupling(const double angle, const Material &material)
 {
-  Degrees degrees = solution.displacement_space.degrees();
-  for (auto &degree : degrees)
-    ++degree;
-  spaces = std::make_shared<const Spaces<2>>(solution.scene, solution.spaces->mesh, degrees,
-                                             solution.spaces->tables, solution.spaces->loads);
-  const Discretisation<2> discretisation(solution.scene, spaces, elements);
-  const LinearSolver solver = discretisation.factor();
-  const SchurComplement reduction(solver, discretisation.system.f, discretisation.contact_rows);
-  const unsigned int n = spaces->contact_space.n_multipliers();
-  S.reinit(n, n);
-  double scale = 0;
-  for (unsigned int i = 0; i < n; ++i)
-  {
-    for (unsigned int j = 0; j < n; ++j)
-      S(i, j) = reduction.S()(i, j);
-    scale = std::max(scale, S(i, i));
-  }
-  if (!discretisation.free_motions)
-    return;
-  // Tractions that push along a free motion have no finite compliance.
-  const FullMatrix<double> &G = discretisation.free_motions->balance().G;
-  for (unsigned int m = 0; m < G.n(); ++m)
-  {
-    double most = 0;
-    for (unsigned int i = 0; i < n; ++i)
-      most = std::max(most, std::abs(G(i, m)));
-    for (unsigned int i = 0; most > 0. && i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        S(i, j) += hold * scale * (G(i, m) / most) * (G(j, m) / most);
-  }
+  if (material.orthotropy)
+    return 1.;
+  const double kappa = material.kolosov(), ratio = (kappa - 1) / (kappa + 1), // mu/(lambda + 2 mu)
+      half = angle / 2, wave = std::sin(2 * angle) / 4, tt = ratio * (half - wave) + half + wave,
+               nn = ratio * (half + wave) + half - wave,
+               tn = (1 - ratio) * std::pow(std::sin(angle), 2) / 2;
+  return tt / std::sqrt(tt * nn - tn * tn);
 }
 
-double CoulombCoupling::of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks) const
+CoulombCoupling::CoulombCoupling(const Solution<2> &solution, CouplingSpaces &spaces)
+    : solution(solution), spaces(spaces), raised(spaces.raised(solution))
 {
-  const ContactSpace<2> &space = spaces->contact_space;
+}
+
+namespace
+{
+/** A face whose friction has no point in the space would be left out of the coupling. */
+void require_all_seen(const ContactSpace<2> &space, const FrictionAlong &friction)
+{
+  for (const auto &[boundary, x] : friction.middles())
+    if (std::none_of(space.faces().begin(), space.faces().end(),
+                     [&, boundary = boundary, x = x](const ContactFace<2> &face)
+                     {
+                       return face.n_multipliers > 0 && face.condition->id == boundary &&
+                              StraightEdge{boundary, face.point(0.), face.point(1.)}.place(x);
+                     }))
+      throw NumericalFailure("friction at " + to_string(x) +
+                             " has no point in the space of its coupling");
+}
+} // namespace
+
+/** Multipliers by what v and X have of them. */
+struct CoulombCoupling::Unknowns
+{
+  std::vector<unsigned int> friction, pressures; ///< of the same points
+  std::vector<double> coefficients;              ///< mu_f chi there
+  std::vector<unsigned int> held;                ///< v has no trace there
+};
+
+CoulombCoupling::Unknowns CoulombCoupling::unknowns(const ContactCompliance &compliance,
+                                                    const FrictionAlong &friction) const
+{
+  const ContactSpace<2> &space = compliance.spaces->contact_space;
   const std::vector<ContactMultiplier<2>> &multipliers = space.multipliers();
-  if (space.faces().size() != chi.size())
+  if (raised && space.faces().size() != solution.contact_space.faces().size())
     throw NumericalFailure("contact has other faces at higher degrees");
-  std::vector<unsigned int> F, P, held;
-  std::vector<double> d;
+  Unknowns result;
   std::vector<bool> is_taken(multipliers.size());
-  for (unsigned int k = 0; k < chi.size(); ++k)
+  for (unsigned int k = 0; k < space.faces().size(); ++k)
   {
     const ContactFace<2> &face = space.faces()[k];
-    for (unsigned int i = 0; chi[k] && i < face.n_multipliers; ++i)
+    if (!face.condition->friction.knows_pressure())
+      continue;
+    const QGauss<1> &gauss = compliance.spaces->tables->gauss(std::max(1U, face.n_multipliers));
+    for (unsigned int i = 0; i < face.n_multipliers; ++i)
     {
       const unsigned int t = face.first_multiplier + i, n = multipliers[t].partner;
-      if (!sticks.empty() && sticks[k])
+      const double s = gauss.point(i)[0];
+      const FrictionAlong::Value value =
+          raised ? friction.on_face(k, s) : friction(face.condition->id, face.point(s));
+      if (value.sticks)
+        result.held.push_back(t);
+      else if (n == numbers::invalid_unsigned_int)
+        continue;
+      else
       {
-        held.push_back(t);
-        is_taken[t] = true;
-        continue;
+        result.friction.push_back(t);
+        result.pressures.push_back(n);
+        result.coefficients.push_back(value.coefficient);
       }
-      const double s = spaces->tables->gauss(face.n_multipliers).point(i)[0];
-      if (n == numbers::invalid_unsigned_int)
-        continue;
-      F.push_back(t);
-      P.push_back(n);
-      d.push_back(face.friction_coefficient(face.point(s)) * chi[k](s));
       is_taken[t] = true;
     }
   }
   for (unsigned int i = 0; i < multipliers.size(); ++i)
     if (multipliers[i].is_bilateral && !is_taken[i])
-      held.push_back(i);
-  if (F.empty())
+      result.held.push_back(i);
+  if (!raised)
+    require_all_seen(space, friction);
+  return result;
+}
+
+double CoulombCoupling::of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks) const
+{
+  const FrictionAlong friction(solution.contact_space.faces(), chi, sticks);
+  const ContactCompliance &compliance = raised ? *raised : spaces.of(solution, friction);
+  const Unknowns all = unknowns(compliance, friction);
+  if (all.friction.empty())
     return 0.;
-  FullMatrix<double> C = part(S, F, F), E(S.m(), P.size());
-  if (!held.empty())
-    C.add(-1., reduced(part(S, held, held), part(S, held, F)));
-  for (unsigned int j = 0; j < P.size(); ++j)
-    E(P[j], j) = 1.;
-  return std::sqrt(
-      std::max(0., largest_eigenvalue(C, Vector<double>(d.begin(), d.end()), reduced(S, E))));
+  const FullMatrix<double> &S = compliance.S;
+  FullMatrix<double> C = part(S, all.friction, all.friction), E(S.m(), all.pressures.size());
+  if (!all.held.empty())
+    C.add(-1., reduced(part(S, all.held, all.held), part(S, all.held, all.friction)));
+  for (unsigned int j = 0; j < all.pressures.size(); ++j)
+    E(all.pressures[j], j) = 1.;
+  return std::sqrt(std::max(
+      0., largest_eigenvalue(C, Vector<double>(all.coefficients.begin(), all.coefficients.end()),
+                             reduced(S, E))));
 }
 
 double CoulombCoupling::closed_forms(const SlipDirection &chi,
@@ -319,8 +347,14 @@ double CoulombCoupling::closed_forms(const SlipDirection &chi,
       if (found == edges.end() || found->second.size() != 2)
         continue;
       for (const BoundaryEdge &edge : found->second)
-        if (edge.condition != faces[k].condition && held_directions(edge, true).empty())
+        if (edge.condition == faces[k].condition)
+          continue;
+        else if (held_directions(edge, true).empty())
           result = std::max(result, at(end) * free_wedge_coupling(angles.at(vertex)));
+        else if (is_clamped(edge))
+          result = std::max(
+              result, at(end) * clamped_wedge_coupling(angles.at(vertex),
+                                                       solution.scene.material_of(faces[k].cell)));
     }
   }
   return result;

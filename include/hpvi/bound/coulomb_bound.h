@@ -2,10 +2,9 @@
 #ifndef hpvi_coulomb_bound_h
 #define hpvi_coulomb_bound_h
 
+#include <hpvi/bound/coupling_spaces.h>
 #include <hpvi/bound/error_bound.h>
-#include <hpvi/bound/slip_direction.h>
 
-#include <memory>
 #include <optional>
 
 namespace hpvi
@@ -53,7 +52,7 @@ public:
            const ContactCorrection<2> &correction, double A, double b);
 
 private:
-  std::unique_ptr<CondensedElements<2>> elements; ///< of degrees p + 1
+  CouplingSpaces spaces;
 };
 } // namespace hpvi
 

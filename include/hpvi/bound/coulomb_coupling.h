@@ -2,7 +2,7 @@
 #ifndef hpvi_coulomb_coupling_h
 #define hpvi_coulomb_coupling_h
 
-#include <hpvi/bound/slip_direction.h>
+#include <hpvi/bound/coupling_spaces.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -23,22 +23,32 @@ double half_plane_coupling(const Material &material);
 double free_wedge_coupling(double angle);
 
 /**
+ * The same where the other side of the wedge is clamped: `N_tt/(N_tt N_nn - N_tn^2)^{1/2}`,
+ * `N = int_0^angle e e'/(lambda + 2 mu) + d d'/mu`, e = (-sin, cos). 1.069 at 90 degrees for nu = 0.3 in plane strain, where the half
+ * plane has 1.044; orthotropic ones: 1.
+ */
+double clamped_wedge_coupling(double angle, const Material &material);
+
+/**
  * How strongly friction couples back: theta = |T|, T v the displacement of least energy with `X_n = mu_f chi v_t`, `X_t = 0` along contact,
  * X = 0 where v is. With the compliance S of all multipliers, of friction (F) with their pressures (P), and those whose trace v
  * has not (b: bilateral, tied, and where v sticks),
  *
  *     theta^2 = lambda_max(D [S_FF - S_Fb S_bb^-1 S_bF] D (S^-1)_PP),     D = diag(mu_f chi),
  *
- * by Lanczos' method, in the space of degrees p + 1, times 1.05, and at least that of the half plane and of free wedges. An estimate:
- * not enclosed from above.
+ * by Lanczos' method, in a space of CouplingSpaces, times 1.05, and at least that of the half plane, of free and of clamped wedges. An
+ * estimate: not enclosed from above.
  */
 class CoulombCoupling
 {
 public:
-  /** Throws NumericalFailure where S is not regular. @p elements of the scene, kept from step to step. */
-  CoulombCoupling(const Solution<2> &solution, CondensedElements<2> &elements);
+  /** @p spaces: kept from step to step. Both must outlive this object. */
+  CoulombCoupling(const Solution<2> &solution, CouplingSpaces &spaces);
 
-  /** For chi of a stress; with @p sticks, by face, for displacements that stick there. */
+  /**
+   * For chi of a stress; with @p sticks, by face, for displacements that stick there. Throws NumericalFailure where S is not
+   * regular, or the space does not see all of the friction.
+   */
   double operator()(const SlipDirection &chi, const std::vector<bool> &sticks = {}) const;
 
   /** Of the matrices alone, without factor and closed forms. */
@@ -51,11 +61,13 @@ public:
   std::string unbounded_at(const SlipDirection &chi, const std::vector<bool> &sticks = {}) const;
 
 private:
+  struct Unknowns;
+  Unknowns unknowns(const ContactCompliance &compliance, const FrictionAlong &friction) const;
   double closed_forms(const SlipDirection &chi, const std::vector<bool> &sticks) const;
 
   const Solution<2> &solution;
-  std::shared_ptr<const Spaces<2>> spaces;
-  dealii::FullMatrix<double> S;
+  CouplingSpaces &spaces;
+  const std::unique_ptr<const ContactCompliance> raised; ///< null: the space is one of spaces
 };
 
 /** The largest eigenvalue of `C D Y D`, C and Y symmetric positive semidefinite, D diagonal: by Lanczos' method, to 1e-8. */

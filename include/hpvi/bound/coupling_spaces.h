@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef hpvi_coupling_spaces_h
+#define hpvi_coupling_spaces_h
+
+#include <hpvi/bound/slip_direction.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <array>
+#include <list>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace hpvi
+{
+/** Compliance of all multipliers of contact in a space. */
+struct ContactCompliance
+{
+  /** Stabilised where a motion is free, which leaves tractions that push along it no finite compliance. */
+  ContactCompliance(const Scene<2> &scene, std::shared_ptr<const Spaces<2>> spaces,
+                    CondensedElements<2> &elements);
+
+  const std::shared_ptr<const Spaces<2>> spaces;
+  dealii::FullMatrix<double> S;
+};
+
+/** A straight edge of a boundary. */
+struct StraightEdge
+{
+  dealii::types::boundary_id boundary;
+  dealii::Point<2> a, b;
+
+  double length() const
+  {
+    return a.distance(b);
+  }
+
+  /** Where on the edge x is, 0 at a and 1 at b; nothing: not on it, by more than round-off. */
+  std::optional<double> place(const dealii::Point<2> &x) const;
+
+  bool operator==(const StraightEdge &other) const
+  {
+    return boundary == other.boundary && a == other.a && b == other.b;
+  }
+};
+
+/** mu_f chi along straight contact, by places: what each mesh may ask for. */
+class FrictionAlong
+{
+public:
+  /** Of faces of a solution, which must outlive this object like chi. @p sticks by face; empty: nowhere. */
+  FrictionAlong(const std::vector<ContactFace<2>> &faces, const SlipDirection &chi,
+                const std::vector<bool> &sticks);
+
+  struct Value
+  {
+    double coefficient; ///< mu_f chi
+    bool sticks;
+  };
+
+  /** Throws NumericalFailure where no face is. */
+  Value operator()(dealii::types::boundary_id boundary, const dealii::Point<2> &x) const;
+
+  /** At @p s in [0,1] of a face. */
+  Value on_face(unsigned int face, double s) const;
+
+  /** What it does on an edge whose halves, quarters, ... the faces are, or that is one of a face. */
+  struct Variation
+  {
+    double height = 0;   ///< of mu_f chi: largest less smallest value
+    double shortest = 0; ///< length of the shortest face there
+  };
+  Variation along(const StraightEdge &edge) const;
+
+  double largest() const; ///< |mu_f chi|
+
+  /** Middles of the faces on which mu_f chi is not zero, and their boundaries. */
+  std::vector<std::pair<dealii::types::boundary_id, dealii::Point<2>>> middles() const;
+
+private:
+  static constexpr unsigned int n_samples = 5; ///< of a face, equidistant, ends included
+
+  /** A face. */
+  struct Part
+  {
+    StraightEdge edge;
+    dealii::Point<2> middle;
+    unsigned int face;
+    std::array<double, n_samples> samples;
+  };
+
+  const std::vector<ContactFace<2>> &faces;
+  const SlipDirection &chi;
+  const std::vector<bool> sticks;
+  std::vector<Part> parts;
+};
+
+/** How fine a space of CouplingSpaces is. */
+struct CouplingResolution
+{
+  unsigned int degree = 6;
+  unsigned int layers = 5; ///< of bisection towards ends of contact with friction
+  double variation = 0.25; ///< of mu_f chi along an edge, over the largest
+  double shortest = 1.;    ///< edge that is bisected for it, over faces of the solution there
+  bool is_of_step = false; ///< degrees p + 1 on the mesh of the step, as between bodies
+};
+
+/**
+ * Spaces in which theta is computed, with what is kept of them from step to step. theta is a number of the body, of
+ * friction and of chi, and not of the mesh of a step. Where contact is that of one body on a foundation, the space has cells
+ * of one degree on the coarse mesh of the scene, bisected towards ends of contact and where mu_f chi varies. As long
+ * as that gives the same mesh, only chi changes. Between bodies it is the mesh of the step, with degrees p + 1.
+ */
+class CouplingSpaces
+{
+public:
+  explicit CouplingSpaces(const CouplingResolution &resolution = {});
+  ~CouplingSpaces();
+
+  /** The space for friction of @p solution; throws what Discretisation throws. Good until the next call but one. */
+  const ContactCompliance &of(const Solution<2> &solution, const FrictionAlong &friction);
+
+  /** The space of degrees p + 1 on the mesh of @p solution; null: of() has a better one. */
+  std::unique_ptr<ContactCompliance> raised(const Solution<2> &solution);
+
+private:
+  void begin(const Solution<2> &solution);
+  std::vector<StraightEdge> wanted_edges(const FrictionAlong &friction) const;
+  std::shared_ptr<const Spaces<2>> space_with(const std::vector<StraightEdge> &edges) const;
+
+  const CouplingResolution resolution;
+
+  /** Of the first solution; a scene of its own stays alive. */
+  std::shared_ptr<const Spaces<2>> first;
+  std::shared_ptr<const Scene<2>> own_scene;
+  const Scene<2> *scene = nullptr;
+
+  std::unique_ptr<CondensedElements<2>> elements;
+  std::vector<StraightEdge> coarse_edges; ///< of contact with friction, in the order of cells
+  std::vector<dealii::Point<2>> ends;     ///< of such contact, or where it turns
+  std::list<std::pair<std::vector<StraightEdge>, ContactCompliance>> kept; ///< the last one first
+};
+
+} // namespace hpvi
+
+#endif

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// How strongly friction couples back is a number of the body, and a mesh that is fine where stresses of one load are
+// singular is no better for it than another one. A space of its own, of high degree on few cells, stays the same from
+// step to step, with its factor.
+#include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
+#include <hpvi/bound/coupling_spaces.h>
+#include <hpvi/plane/curved_edges.h>
+#include <hpvi/plane/mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+namespace hpvi
+{
+using namespace dealii;
+
+namespace
+{
+/** Stiffness against tractions that would push along a free motion, over the largest of S. */
+constexpr double hold = 1e5;
+
+/** Bisections of an edge of the coarse mesh: what a mesh of a solution has at most. */
+constexpr unsigned int most_bisections = 40;
+
+/** Does contact with friction that knows the pressure act on this edge of a cell? */
+bool has_coupling(const Triangulation<2>::cell_iterator &cell, const unsigned int face,
+                  const Scene<2> &scene)
+{
+  return cell->at_boundary(face) && cell->face(face)->boundary_id() < scene.boundaries.size() &&
+         scene.boundaries[cell->face(face)->boundary_id()].friction.knows_pressure();
+}
+
+StraightEdge edge_of(const Triangulation<2>::cell_iterator &cell, const unsigned int face)
+{
+  return {cell->face(face)->boundary_id(), cell->face(face)->vertex(0),
+          cell->face(face)->vertex(1)};
+}
+
+template <class F>
+void for_each_coupled_edge(const Triangulation<2> &mesh, const Scene<2> &scene, const F &f)
+{
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (has_coupling(cell, face, scene))
+        f(cell, edge_of(cell, face));
+}
+
+/** Vertices where contact with friction ends, or goes on in another direction. */
+std::vector<Point<2>> ends_of_contact(const Triangulation<2> &mesh, const Scene<2> &scene)
+{
+  struct Around
+  {
+    std::vector<StraightEdge> edges;
+    bool is_coupled = false;
+  };
+  std::map<unsigned int, Around> vertices;
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face))
+        for (unsigned int end = 0; end < 2; ++end)
+        {
+          Around &around = vertices[cell->face(face)->vertex_index(end)];
+          around.edges.push_back(edge_of(cell, face));
+          around.is_coupled = around.is_coupled || has_coupling(cell, face, scene);
+        }
+  std::vector<Point<2>> result;
+  for (const auto &[vertex, around] : vertices)
+  {
+    const StraightEdge &first = around.edges.front(), &last = around.edges.back();
+    const double turn = std::abs(cross_product_2d(first.b - first.a) * (last.b - last.a)) /
+                        (first.length() * last.length());
+    if (around.is_coupled &&
+        (around.edges.size() != 2 || first.boundary != last.boundary || turn > 1e-6))
+      result.push_back(mesh.get_vertices()[vertex]);
+  }
+  return result;
+}
+
+/** Does the face lie on a straight foundation, measured along its normal? */
+bool is_on_straight_foundation(const ContactFace<2> &face)
+{
+  if (!face.segments.empty() || face.is_axisymmetric)
+    return false;
+  const Tensor<1, 2> normal = contact_frame(face.map, face.face_no, Point<1>(0.5)).normal;
+  for (const double s : {0., 0.25, 0.75, 1.})
+    if ((face.frame(s).normal - normal).norm() > 1e-12)
+      return false;
+  return true;
+}
+} // namespace
+
+ContactCompliance::ContactCompliance(const Scene<2> &scene,
+                                     std::shared_ptr<const Spaces<2>> all_spaces,
+                                     CondensedElements<2> &elements)
+    : spaces(std::move(all_spaces))
+{
+  const Discretisation<2> discretisation(scene, spaces, elements);
+  const LinearSolver solver = discretisation.factor();
+  const SchurComplement reduction(solver, discretisation.system.f, discretisation.contact_rows);
+  const unsigned int n = spaces->contact_space.n_multipliers();
+  S.reinit(n, n);
+  double scale = 0;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    for (unsigned int j = 0; j < n; ++j)
+      S(i, j) = reduction.S()(i, j);
+    scale = std::max(scale, S(i, i));
+  }
+  if (!discretisation.free_motions)
+    return;
+  // Tractions that push along a free motion have no finite compliance.
+  const FullMatrix<double> &G = discretisation.free_motions->balance().G;
+  for (unsigned int m = 0; m < G.n(); ++m)
+  {
+    double most = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      most = std::max(most, std::abs(G(i, m)));
+    for (unsigned int i = 0; most > 0. && i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        S(i, j) += hold * scale * (G(i, m) / most) * (G(j, m) / most);
+  }
+}
+
+// @sect3{Places along contact}
+
+std::optional<double> StraightEdge::place(const Point<2> &x) const
+{
+  constexpr double near = 1e-7;
+  const Tensor<1, 2> along = b - a, from = x - a;
+  const double square = along.norm_square(), s = (from * along) / square;
+  if (s < -near || s > 1 + near || std::abs(cross_product_2d(along) * from) > near * square)
+    return std::nullopt;
+  return std::max(0., std::min(1., s));
+}
+
+FrictionAlong::FrictionAlong(const std::vector<ContactFace<2>> &faces, const SlipDirection &chi,
+                             const std::vector<bool> &sticks)
+    : faces(faces), chi(chi), sticks(sticks)
+{
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (chi[k])
+    {
+      Part part{{faces[k].condition->id, faces[k].point(0.), faces[k].point(1.)},
+                faces[k].point(0.5),
+                k,
+                {}};
+      for (unsigned int i = 0; i < n_samples; ++i)
+        part.samples[i] = on_face(k, double(i) / (n_samples - 1)).coefficient;
+      parts.push_back(part);
+    }
+}
+
+FrictionAlong::Value FrictionAlong::on_face(const unsigned int face, const double s) const
+{
+  const double coefficient =
+      chi[face] ? faces[face].friction_coefficient(faces[face].point(s)) * chi[face](s) : 0.;
+  return {coefficient, !sticks.empty() && sticks[face]};
+}
+
+FrictionAlong::Value FrictionAlong::operator()(const types::boundary_id boundary,
+                                               const Point<2> &x) const
+{
+  for (const Part &part : parts)
+    if (part.edge.boundary == boundary)
+      if (const std::optional<double> s = part.edge.place(x))
+        return on_face(part.face, *s);
+  throw NumericalFailure("friction at " + to_string(x) + " is not found on the mesh of the step");
+}
+
+FrictionAlong::Variation FrictionAlong::along(const StraightEdge &edge) const
+{
+  const Point<2> middle = edge.a + 0.5 * (edge.b - edge.a);
+  double low = std::numeric_limits<double>::infinity(), high = -low, shortest = low;
+  const auto add = [&](const double value)
+  {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  for (const Part &part : parts)
+  {
+    if (part.edge.boundary != edge.boundary)
+      continue;
+    if (edge.place(part.middle))
+      for (const double sample : part.samples)
+        add(sample);
+    else if (part.edge.place(middle))
+      for (unsigned int i = 0; i < n_samples; ++i)
+        add(on_face(part.face, *part.edge.place(middle) + (double(i) / (n_samples - 1) - 0.5) *
+                                                              edge.length() / part.edge.length())
+                .coefficient);
+    else
+      continue;
+    shortest = std::min(shortest, part.edge.length());
+  }
+  return high < low ? Variation{0., edge.length()} : Variation{high - low, shortest};
+}
+
+double FrictionAlong::largest() const
+{
+  double result = 0;
+  for (const Part &part : parts)
+    for (const double sample : part.samples)
+      result = std::max(result, std::abs(sample));
+  return result;
+}
+
+std::vector<std::pair<types::boundary_id, Point<2>>> FrictionAlong::middles() const
+{
+  std::vector<std::pair<types::boundary_id, Point<2>>> result;
+  for (const Part &part : parts)
+    if (part.samples[n_samples / 2] != 0.)
+      result.emplace_back(part.edge.boundary, part.middle);
+  return result;
+}
+
+// @sect3{The space of a friction}
+//
+// A list of edges names a mesh: that whose contact edges are no longer.
+
+CouplingSpaces::CouplingSpaces(const CouplingResolution &resolution) : resolution(resolution)
+{
+}
+
+CouplingSpaces::~CouplingSpaces() = default;
+
+void CouplingSpaces::begin(const Solution<2> &solution)
+{
+  if (scene)
+    return;
+  scene = &solution.scene;
+  own_scene = solution.own_scene;
+  first = solution.spaces;
+  elements = std::make_unique<CondensedElements<2>>(*scene, *first->tables);
+  Triangulation<2> coarse;
+  make_mesh(*scene, coarse);
+  for_each_coupled_edge(coarse, *scene,
+                        [&](const auto &, const StraightEdge &edge)
+                        { coarse_edges.push_back(edge); });
+  ends = ends_of_contact(coarse, *scene);
+}
+
+std::vector<StraightEdge> CouplingSpaces::wanted_edges(const FrictionAlong &friction) const
+{
+  const double most = resolution.variation * friction.largest();
+  std::vector<StraightEdge> result;
+  const std::function<void(const StraightEdge &, unsigned int)> add =
+      [&](const StraightEdge &edge, const unsigned int level)
+  {
+    const bool is_at_end =
+        std::any_of(ends.begin(), ends.end(),
+                    [&](const Point<2> &end) { return end == edge.a || end == edge.b; });
+    bool is_long = level < resolution.layers && is_at_end;
+    if (!is_long && level < most_bisections)
+    {
+      const FrictionAlong::Variation found = friction.along(edge);
+      is_long =
+          found.height > most && edge.length() > (1 + 1e-6) * resolution.shortest * found.shortest;
+    }
+    if (!is_long)
+      return result.push_back(edge);
+    const Point<2> middle = edge.a + 0.5 * (edge.b - edge.a);
+    add({edge.boundary, edge.a, middle}, level + 1);
+    add({edge.boundary, middle, edge.b}, level + 1);
+  };
+  for (const StraightEdge &edge : coarse_edges)
+    add(edge, 0);
+  return result;
+}
+
+std::shared_ptr<const Spaces<2>>
+CouplingSpaces::space_with(const std::vector<StraightEdge> &edges) const
+{
+  const auto mesh = std::make_shared<Triangulation<2>>();
+  make_mesh(*scene, *mesh);
+  for (bool is_changed = true; is_changed;)
+  {
+    is_changed = false;
+    for_each_coupled_edge(*mesh, *scene,
+                          [&](const auto &cell, const StraightEdge &edge)
+                          {
+                            for (const StraightEdge &wanted : edges)
+                              if (wanted.boundary == edge.boundary &&
+                                  wanted.length() < 0.75 * edge.length() &&
+                                  edge.place(wanted.a + 0.5 * (wanted.b - wanted.a)))
+                              {
+                                cell->set_refine_flag();
+                                is_changed = true;
+                                return;
+                              }
+                          });
+    mesh->execute_coarsening_and_refinement();
+  }
+  const Degrees degrees(mesh->n_active_cells(), resolution.degree);
+  set_edge_degrees(*mesh, degrees);
+  return std::make_shared<const Spaces<2>>(*scene, mesh, degrees, first->tables, first->loads);
+}
+
+const ContactCompliance &CouplingSpaces::of(const Solution<2> &solution,
+                                            const FrictionAlong &friction)
+{
+  begin(solution);
+  std::vector<StraightEdge> edges = wanted_edges(friction);
+  const auto known =
+      std::find_if(kept.begin(), kept.end(), [&](const auto &one) { return one.first == edges; });
+  if (known != kept.end())
+    kept.splice(kept.begin(), kept, known);
+  else
+  {
+    kept.emplace_front(std::piecewise_construct, std::forward_as_tuple(edges),
+                       std::forward_as_tuple(*scene, space_with(edges), *elements));
+    if (kept.size() > 2)
+      kept.pop_back();
+  }
+  return kept.front().second;
+}
+
+std::unique_ptr<ContactCompliance> CouplingSpaces::raised(const Solution<2> &solution)
+{
+  const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
+  if (!resolution.is_of_step && std::all_of(faces.begin(), faces.end(), is_on_straight_foundation))
+    return nullptr;
+  begin(solution);
+  Degrees degrees = solution.displacement_space.degrees();
+  for (auto &degree : degrees)
+    ++degree;
+  return std::make_unique<ContactCompliance>(
+      solution.scene,
+      std::make_shared<const Spaces<2>>(solution.scene, solution.spaces->mesh, degrees,
+                                        solution.spaces->tables, solution.spaces->loads),
+      *elements);
+}
+} // namespace hpvi
