@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
 #include <hpvi/bound/coulomb_coupling.h>
@@ -85,81 +84,6 @@ std::map<unsigned int, double> angles_at_vertices(const Solution<2> &solution)
       }
   return result;
 }
-
-/** x := L' x, or L x, with L in the lower triangle. */
-void multiply_lower(const FullMatrix<double> &L, const bool transposed, Vector<double> &x)
-{
-  const unsigned int n = x.size();
-  Vector<double> y(n);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j <= i; ++j)
-      y[transposed ? j : i] += L(i, j) * x[transposed ? i : j];
-  x = y;
-}
-
-/** L of a symmetric matrix; false: it is not positive definite. */
-bool factor(FullMatrix<double> &A)
-{
-  return A.m() == 0 || cholesky(A.m(), &A(0, 0), A.m());
-}
-
-/** B' A^-1 B, A positive definite. */
-FullMatrix<double> reduced(FullMatrix<double> A, const FullMatrix<double> &B)
-{
-  const unsigned int n = B.m(), m = B.n();
-  FullMatrix<double> result(m, m);
-  if (n == 0 || m == 0)
-    return result;
-  if (!factor(A)) // its lower triangle by columns is the upper one of deal.II's rows
-    throw NumericalFailure("the compliance of contact is not regular");
-  std::vector<double> Z(std::size_t(n) * m);
-  for (unsigned int j = 0; j < m; ++j)
-    for (unsigned int i = 0; i < n; ++i)
-      Z[std::size_t(j) * n + i] = B(i, j);
-  solve_triangular('N', n, m, {&A(0, 0), n}, Z.data(), n);
-  multiply('T', 'N', m, m, n, 1., {Z.data(), n}, {Z.data(), n}, 0., &result(0, 0), m);
-  return result;
-}
-
-FullMatrix<double> part(const FullMatrix<double> &A, const std::vector<unsigned int> &rows,
-                        const std::vector<unsigned int> &columns)
-{
-  FullMatrix<double> result(rows.size(), columns.size());
-  for (unsigned int i = 0; i < rows.size(); ++i)
-    for (unsigned int j = 0; j < columns.size(); ++j)
-      result(i, j) = A(rows[i], columns[j]);
-  return result;
-}
-
-/** The largest eigenvalue of a symmetric tridiagonal matrix, by bisection of Sturm's sequence. */
-double largest_of_tridiagonal(const std::vector<double> &diagonal,
-                              const std::vector<double> &beside)
-{
-  double low = diagonal[0], high = diagonal[0];
-  for (unsigned int i = 0; i < diagonal.size(); ++i)
-  {
-    const double radius = (i > 0 ? std::abs(beside[i - 1]) : 0.) +
-                          (i + 1 < diagonal.size() ? std::abs(beside[i]) : 0.);
-    low = std::max(low, diagonal[i]);
-    high = std::max(high, diagonal[i] + radius);
-  }
-  for (unsigned int step = 0; step < 200 && high - low > 1e-14 * std::abs(high); ++step)
-  {
-    const double x = 0.5 * (low + high);
-    bool is_above = false;
-    double pivot = 1;
-    for (unsigned int i = 0; i < diagonal.size() && !is_above; ++i)
-    {
-      const double square = i > 0 ? beside[i - 1] * beside[i - 1] : 0.;
-      pivot = diagonal[i] - x - (i > 0 ? square / pivot : 0.);
-      if (pivot == 0.)
-        pivot = -std::numeric_limits<double>::min();
-      is_above = pivot > 0.;
-    }
-    (is_above ? low : high) = x;
-  }
-  return high;
-}
 } // namespace
 
 double half_plane_coupling(const Material &material)
@@ -175,49 +99,6 @@ double free_wedge_coupling(const double angle)
   const double tt = angle / 2 + std::sin(2 * angle) / 4, nn = angle / 2 - std::sin(2 * angle) / 4,
                tn = std::pow(std::sin(angle), 2) / 2;
   return nn / std::sqrt(tt * nn - tn * tn);
-}
-
-// Lanczos' method on K' D Y D K with C = K K', whole sequence kept orthogonal: S has some hundred rows.
-double largest_eigenvalue(const FullMatrix<double> &C, const Vector<double> &D,
-                          const FullMatrix<double> &Y)
-{
-  const unsigned int n = D.size();
-  if (n == 0 || D.all_zero())
-    return 0.;
-  FullMatrix<double> K(C);
-  if (!factor(K))
-    throw NumericalFailure("the compliance of contact is not regular");
-  for (unsigned int i = 0; i < n; ++i) // of columns
-    for (unsigned int j = 0; j < i; ++j)
-      K(i, j) = K(j, i);
-  Vector<double> q(n), y(n);
-  for (unsigned int i = 0; i < n; ++i)
-    q[i] = 1. + 0.3 * std::sin(7. * i + 1.);
-  q /= q.l2_norm();
-  std::vector<Vector<double>> basis;
-  std::vector<double> diagonal, beside;
-  double value = 0;
-  for (unsigned int step = 0; step < n; ++step)
-  {
-    basis.push_back(q);
-    multiply_lower(K, false, q);
-    q.scale(D);
-    Y.vmult(y, q);
-    y.scale(D);
-    multiply_lower(K, true, y);
-    q = y;
-    diagonal.push_back(q * basis.back());
-    for (unsigned int twice = 0; twice < 2; ++twice)
-      for (const Vector<double> &known : basis)
-        q.add(-(q * known), known);
-    const double before = std::exchange(value, largest_of_tridiagonal(diagonal, beside)),
-                 norm = q.l2_norm();
-    if (norm <= 1e-12 * value || (step > 10 && value - before <= 1e-9 * value && step % 5 == 0))
-      break;
-    beside.push_back(norm);
-    q /= norm;
-  }
-  return value;
 }
 
 double clamped_wedge_coupling(const double angle, const Material &material)
@@ -306,19 +187,13 @@ CoulombCoupling::Unknowns CoulombCoupling::unknowns(const ContactCompliance &com
 double CoulombCoupling::of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks) const
 {
   const FrictionAlong friction(solution.contact_space.faces(), chi, sticks);
-  const ContactCompliance &compliance = raised ? *raised : spaces.of(solution, friction);
+  ContactCompliance &compliance = raised ? *raised : spaces.of(solution, friction);
   const Unknowns all = unknowns(compliance, friction);
   if (all.friction.empty())
     return 0.;
-  const FullMatrix<double> &S = compliance.S;
-  FullMatrix<double> C = part(S, all.friction, all.friction), E(S.m(), all.pressures.size());
-  if (!all.held.empty())
-    C.add(-1., reduced(part(S, all.held, all.held), part(S, all.held, all.friction)));
-  for (unsigned int j = 0; j < all.pressures.size(); ++j)
-    E(all.pressures[j], j) = 1.;
-  return std::sqrt(std::max(
-      0., largest_eigenvalue(C, Vector<double>(all.coefficients.begin(), all.coefficients.end()),
-                             reduced(S, E))));
+  return std::sqrt(std::max(0., compliance.matrices(all.friction, all.pressures, all.held)
+                                    .largest_eigenvalue(Vector<double>(all.coefficients.begin(),
+                                                                       all.coefficients.end()))));
 }
 
 double CoulombCoupling::closed_forms(const SlipDirection &chi,

@@ -3,6 +3,7 @@
 // How strongly friction couples back is a number of the body, and a mesh that is fine where stresses of one load are
 // singular is no better for it than another one. A space of its own, of high degree on few cells, stays the same from
 // step to step, with its factor.
+#include <hpvi/algebra/triangular.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
 #include <hpvi/bound/coupling_spaces.h>
@@ -92,6 +93,69 @@ bool is_on_straight_foundation(const ContactFace<2> &face)
       return false;
   return true;
 }
+/** L of a symmetric matrix; false: it is not positive definite. */
+bool factor(FullMatrix<double> &A)
+{
+  return A.m() == 0 || cholesky(A.m(), &A(0, 0), A.m());
+}
+
+/** B' A^-1 B, A positive definite. */
+FullMatrix<double> reduced(FullMatrix<double> A, const FullMatrix<double> &B)
+{
+  const unsigned int n = B.m(), m = B.n();
+  FullMatrix<double> result(m, m);
+  if (n == 0 || m == 0)
+    return result;
+  if (!factor(A)) // its lower triangle by columns is the upper one of deal.II's rows
+    throw NumericalFailure("the compliance of contact is not regular");
+  std::vector<double> Z(std::size_t(n) * m);
+  for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      Z[std::size_t(j) * n + i] = B(i, j);
+  solve_triangular('N', n, m, {&A(0, 0), n}, Z.data(), n);
+  multiply('T', 'N', m, m, n, 1., {Z.data(), n}, {Z.data(), n}, 0., &result(0, 0), m);
+  return result;
+}
+
+FullMatrix<double> part(const FullMatrix<double> &A, const std::vector<unsigned int> &rows,
+                        const std::vector<unsigned int> &columns)
+{
+  FullMatrix<double> result(rows.size(), columns.size());
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    for (unsigned int j = 0; j < columns.size(); ++j)
+      result(i, j) = A(rows[i], columns[j]);
+  return result;
+}
+
+/** The largest eigenvalue of a symmetric tridiagonal matrix, by bisection of Sturm's sequence. */
+double largest_of_tridiagonal(const std::vector<double> &diagonal,
+                              const std::vector<double> &beside)
+{
+  double low = diagonal[0], high = diagonal[0];
+  for (unsigned int i = 0; i < diagonal.size(); ++i)
+  {
+    const double radius = (i > 0 ? std::abs(beside[i - 1]) : 0.) +
+                          (i + 1 < diagonal.size() ? std::abs(beside[i]) : 0.);
+    low = std::max(low, diagonal[i]);
+    high = std::max(high, diagonal[i] + radius);
+  }
+  for (unsigned int step = 0; step < 200 && high - low > 1e-14 * std::abs(high); ++step)
+  {
+    const double x = 0.5 * (low + high);
+    bool is_above = false;
+    double pivot = 1;
+    for (unsigned int i = 0; i < diagonal.size() && !is_above; ++i)
+    {
+      const double square = i > 0 ? beside[i - 1] * beside[i - 1] : 0.;
+      pivot = diagonal[i] - x - (i > 0 ? square / pivot : 0.);
+      if (pivot == 0.)
+        pivot = -std::numeric_limits<double>::min();
+      is_above = pivot > 0.;
+    }
+    (is_above ? low : high) = x;
+  }
+  return high;
+}
 } // namespace
 
 ContactCompliance::ContactCompliance(const Scene<2> &scene,
@@ -124,6 +188,83 @@ ContactCompliance::ContactCompliance(const Scene<2> &scene,
       for (unsigned int j = 0; j < n; ++j)
         S(i, j) += hold * scale * (G(i, m) / most) * (G(j, m) / most);
   }
+}
+
+const CouplingMatrices &ContactCompliance::matrices(const std::vector<unsigned int> &friction,
+                                                    const std::vector<unsigned int> &pressures,
+                                                    const std::vector<unsigned int> &held)
+{
+  const auto known =
+      std::find_if(kept.begin(), kept.end(),
+                   [&](const Known &one) { return one.friction == friction && one.held == held; });
+  if (known != kept.end())
+    kept.splice(kept.begin(), kept, known);
+  else
+  {
+    FullMatrix<double> C = part(S, friction, friction), E(S.m(), pressures.size());
+    if (!held.empty())
+      C.add(-1., reduced(part(S, held, held), part(S, held, friction)));
+    for (unsigned int j = 0; j < pressures.size(); ++j)
+      E(pressures[j], j) = 1.;
+    kept.push_front({friction, held, CouplingMatrices(C, reduced(S, E))});
+    if (kept.size() > 2)
+      kept.pop_back();
+  }
+  return kept.front().matrices;
+}
+
+// @sect3{The largest eigenvalue}
+
+CouplingMatrices::CouplingMatrices(const FullMatrix<double> &C, FullMatrix<double> given_Y)
+    : L(C.m() * C.m()), Y(std::move(given_Y))
+{
+  const unsigned int n = C.m();
+  FullMatrix<double> K(C);
+  if (!factor(K)) // its lower triangle by columns is the upper one of deal.II's rows
+    throw NumericalFailure("the compliance of contact is not regular");
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int i = j; i < n; ++i)
+      L[std::size_t(j) * n + i] = K(j, i);
+}
+
+// Lanczos' method on L' D Y D L, whole sequence kept orthogonal: S has some hundred rows.
+double CouplingMatrices::largest_eigenvalue(const Vector<double> &D) const
+{
+  const unsigned int n = D.size();
+  if (n == 0 || D.all_zero())
+    return 0.;
+  Vector<double> q(n), y(n);
+  for (unsigned int i = 0; i < n; ++i)
+    q[i] = 1. + 0.3 * std::sin(7. * i + 1.);
+  q /= q.l2_norm();
+  const auto times = [&](const char op, const double *A)
+  {
+    multiply(op, 'N', n, 1, n, 1., {A, n}, {q.begin(), n}, 0., y.begin(), n);
+    q.swap(y);
+  };
+  std::vector<Vector<double>> basis;
+  std::vector<double> diagonal, beside;
+  double value = 0;
+  for (unsigned int step = 0; step < n; ++step)
+  {
+    basis.push_back(q);
+    times('N', L.data());
+    q.scale(D);
+    times('N', &Y(0, 0));
+    q.scale(D);
+    times('T', L.data());
+    diagonal.push_back(q * basis.back());
+    for (unsigned int twice = 0; twice < 2; ++twice)
+      for (const Vector<double> &known : basis)
+        q.add(-(q * known), known);
+    const double before = std::exchange(value, largest_of_tridiagonal(diagonal, beside)),
+                 norm = q.l2_norm();
+    if (norm <= 1e-12 * value || (step > 10 && value - before <= 1e-9 * value && step % 5 == 0))
+      break;
+    beside.push_back(norm);
+    q /= norm;
+  }
+  return value;
 }
 
 // @sect3{Places along contact}
@@ -300,8 +441,7 @@ CouplingSpaces::space_with(const std::vector<StraightEdge> &edges) const
   return std::make_shared<const Spaces<2>>(*scene, mesh, degrees, first->tables, first->loads);
 }
 
-const ContactCompliance &CouplingSpaces::of(const Solution<2> &solution,
-                                            const FrictionAlong &friction)
+ContactCompliance &CouplingSpaces::of(const Solution<2> &solution, const FrictionAlong &friction)
 {
   begin(solution);
   std::vector<StraightEdge> edges = wanted_edges(friction);

@@ -171,7 +171,8 @@ TEST(CoulombBound, HoldsForAllSolutionsOfSmallProblems)
           C(i, j) = problem.C(n + i, n + j);
           Y(i, j) = problem.K(i, j);
         }
-      const double theta = std::sqrt(std::max(0., largest_eigenvalue(C, coefficient, Y)));
+      const double theta =
+          std::sqrt(std::max(0., CouplingMatrices(C, Y).largest_eigenvalue(coefficient)));
       Vector<double> rest = problem.displacement(tractions);
       rest -= U;
       const double bound = coulomb_bound(theta, {problem.norm(rest), gap, 0., problem.norm(X)});

@@ -4,8 +4,6 @@
 
 #include <hpvi/bound/coupling_spaces.h>
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,12 +65,8 @@ private:
 
   const Solution<2> &solution;
   CouplingSpaces &spaces;
-  const std::unique_ptr<const ContactCompliance> raised; ///< null: the space is one of spaces
+  const std::unique_ptr<ContactCompliance> raised; ///< null: the space is one of spaces
 };
-
-/** The largest eigenvalue of `C D Y D`, C and Y symmetric positive semidefinite, D diagonal: by Lanczos' method, to 1e-8. */
-double largest_eigenvalue(const dealii::FullMatrix<double> &C, const dealii::Vector<double> &D,
-                          const dealii::FullMatrix<double> &Y);
 } // namespace hpvi
 
 #endif

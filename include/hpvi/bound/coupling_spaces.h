@@ -15,15 +15,48 @@
 
 namespace hpvi
 {
-/** Compliance of all multipliers of contact in a space. */
-struct ContactCompliance
+/** What `C D Y D` has without D, C and Y symmetric positive semidefinite and D diagonal. */
+class CouplingMatrices
 {
+public:
+  /** Throws NumericalFailure where C is not regular. */
+  CouplingMatrices(const dealii::FullMatrix<double> &C, dealii::FullMatrix<double> Y);
+
+  /** Of `C D Y D`: by Lanczos' method, to 1e-8. */
+  double largest_eigenvalue(const dealii::Vector<double> &D) const;
+
+private:
+  std::vector<double> L; ///< `C = L L'`, by columns, zeros included
+  dealii::FullMatrix<double> Y;
+};
+
+/** Compliance S of all multipliers of contact in a space. */
+class ContactCompliance
+{
+public:
   /** Stabilised where a motion is free, which leaves tractions that push along it no finite compliance. */
   ContactCompliance(const Scene<2> &scene, std::shared_ptr<const Spaces<2>> spaces,
                     CondensedElements<2> &elements);
 
+  /**
+   * `C = S_FF - S_Fb S_bb^-1 S_bF` and `Y = (S^-1)_PP` for friction F, its pressures P and b where v is @p held. The last two are
+   * kept. Throws NumericalFailure where S is not regular.
+   */
+  const CouplingMatrices &matrices(const std::vector<unsigned int> &friction,
+                                   const std::vector<unsigned int> &pressures,
+                                   const std::vector<unsigned int> &held);
+
   const std::shared_ptr<const Spaces<2>> spaces;
+
+private:
+  struct Known
+  {
+    std::vector<unsigned int> friction, held;
+    CouplingMatrices matrices;
+  };
+
   dealii::FullMatrix<double> S;
+  std::list<Known> kept; ///< the last one first
 };
 
 /** A straight edge of a boundary. */
@@ -102,7 +135,7 @@ struct CouplingResolution
 {
   unsigned int degree = 6;
   unsigned int layers = 5; ///< of bisection towards ends of contact with friction
-  double variation = 0.25; ///< of mu_f chi along an edge, over the largest
+  double variation = 0.6;  ///< of mu_f chi along an edge, over the largest
   double shortest = 1.;    ///< edge that is bisected for it, over faces of the solution there
   bool is_of_step = false; ///< degrees p + 1 on the mesh of the step, as between bodies
 };
@@ -120,7 +153,7 @@ public:
   ~CouplingSpaces();
 
   /** The space for friction of @p solution; throws what Discretisation throws. Good until the next call but one. */
-  const ContactCompliance &of(const Solution<2> &solution, const FrictionAlong &friction);
+  ContactCompliance &of(const Solution<2> &solution, const FrictionAlong &friction);
 
   /** The space of degrees p + 1 on the mesh of @p solution; null: of() has a better one. */
   std::unique_ptr<ContactCompliance> raised(const Solution<2> &solution);
