@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace hpvi
 {
@@ -115,6 +116,8 @@ public:
   double lift(const Solution<2> &solution, const Discretisation<2> &discretisation) const;
 
 private:
+  std::vector<bool> near_bumps() const; ///< faces that touch one with a bump, or have one
+
   const std::vector<ContactFace<2>> &faces;
   const ContactCorrection<2> &correction;
   const SlipDirection &chi;
@@ -163,17 +166,42 @@ Excess::Excess(const Solution<2> &solution, const ContactCorrection<2> &correcti
   }
 }
 
+// X' moves nodes of these faces alone, and vanishes along those farther away: they need no wishes. Where bodies touch all have some.
+std::vector<bool> Excess::near_bumps() const
+{
+  std::set<unsigned int> vertices;
+  const auto ends = [&](const unsigned int k)
+  {
+    const auto face = faces[k].cell->face(faces[k].face_no);
+    return std::array<unsigned int, 2>{{face->vertex_index(0), face->vertex_index(1)}};
+  };
+  bool has_pairs = false;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    has_pairs = has_pairs || !faces[k].segments.empty();
+    if (!all[k].is_zero())
+      for (const unsigned int vertex : ends(k))
+        vertices.insert(vertex);
+  }
+  std::vector<bool> result(faces.size());
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    result[k] = has_pairs || vertices.count(ends(k)[0]) > 0 || vertices.count(ends(k)[1]) > 0;
+  return result;
+}
+
 double Excess::lift(const Solution<2> &solution, const Discretisation<2> &discretisation) const
 {
   if (std::all_of(all.begin(), all.end(), [](const Bump &bump) { return bump.is_zero(); }))
     return 0.;
   const NodeFreedom freedom(solution, discretisation.unknowns);
   NodalDisplacement<2> X(solution, freedom);
-  for (const ContactFace<2> &face : faces)
-    if (face.condition->friction || face.condition->is_tied())
-      X.wish(face, face.frame(0.5).tangent, [](const double) { return 0.; });
+  const std::vector<bool> near = near_bumps();
   for (unsigned int k = 0; k < faces.size(); ++k)
-    X.wish(faces[k], faces[k].frame(0.5).normal, all[k]);
+    if (near[k] && (faces[k].condition->friction || faces[k].condition->is_tied()))
+      X.wish(faces[k], faces[k].frame(0.5).tangent, [](const double) { return 0.; });
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    if (near[k])
+      X.wish(faces[k], faces[k].frame(0.5).normal, all[k]);
   X.move();
   double largest = 0;
   for (const Bump &bump : all)

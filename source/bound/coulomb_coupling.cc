@@ -112,10 +112,21 @@ double clamped_wedge_coupling(const double angle, const Material &material)
   return tt / std::sqrt(tt * nn - tn * tn);
 }
 
+/** What meets at the vertices of the boundary. */
+struct CoulombCoupling::Boundary
+{
+  EdgesAtVertices edges;
+  std::map<unsigned int, double> angles;
+};
+
 CoulombCoupling::CoulombCoupling(const Solution<2> &solution, CouplingSpaces &spaces)
-    : solution(solution), spaces(spaces), raised(spaces.raised(solution))
+    : solution(solution), spaces(spaces),
+      boundary(new Boundary{edges_at_vertices(solution), angles_at_vertices(solution)}),
+      raised(spaces.raised(solution))
 {
 }
+
+CoulombCoupling::~CoulombCoupling() = default;
 
 namespace
 {
@@ -200,8 +211,7 @@ double CoulombCoupling::closed_forms(const SlipDirection &chi,
                                      const std::vector<bool> &sticks) const
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
-  const EdgesAtVertices edges = edges_at_vertices(solution);
-  const std::map<unsigned int, double> angles = angles_at_vertices(solution);
+  const auto &[edges, angles] = *boundary;
   double result = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
@@ -239,7 +249,7 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
                                           const std::vector<bool> &sticks) const
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
-  const EdgesAtVertices edges = edges_at_vertices(solution);
+  const EdgesAtVertices &edges = boundary->edges;
   const double near = 1e-9 * solution.scene.geometry.diameter();
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
@@ -270,6 +280,10 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
         }
         return X_vanishes && !v_vanishes;
       };
+      // Next to all ends of faces are inside of contact, and none of them is bad.
+      const unsigned int own = faces[k].cell->face(faces[k].face_no)->vertex_index(end);
+      if (const auto found = edges.find(own); found != edges.end() && !is_bad(found->second))
+        continue;
       bool is_here = false, all_are_bad = true;
       for (const auto &[vertex, around] : edges)
         if (around[0].vertex.distance(x) < near)

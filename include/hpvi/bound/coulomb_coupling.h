@@ -42,6 +42,7 @@ class CoulombCoupling
 public:
   /** @p spaces: kept from step to step. Both must outlive this object. */
   CoulombCoupling(const Solution<2> &solution, CouplingSpaces &spaces);
+  ~CoulombCoupling();
 
   /**
    * For chi of a stress; with @p sticks, by face, for displacements that stick there. Throws NumericalFailure where S is not
@@ -60,11 +61,13 @@ public:
 
 private:
   struct Unknowns;
+  struct Boundary;
   Unknowns unknowns(const ContactCompliance &compliance, const FrictionAlong &friction) const;
   double closed_forms(const SlipDirection &chi, const std::vector<bool> &sticks) const;
 
   const Solution<2> &solution;
   CouplingSpaces &spaces;
+  const std::unique_ptr<const Boundary> boundary;
   const std::unique_ptr<ContactCompliance> raised; ///< null: the space is one of spaces
 };
 } // namespace hpvi

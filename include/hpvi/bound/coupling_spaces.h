@@ -133,7 +133,7 @@ private:
 /** How fine a space of CouplingSpaces is. */
 struct CouplingResolution
 {
-  unsigned int degree = 6;
+  unsigned int degree = 5;
   unsigned int layers = 5; ///< of bisection towards ends of contact with friction
   double variation = 0.6;  ///< of mu_f chi along an edge, over the largest
   double shortest = 1.;    ///< edge that is bisected for it, over faces of the solution there
