@@ -49,19 +49,6 @@ std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<di
   return basis;
 }
 
-/** A vertex inside an edge of the body gets the same conditions from both of its cells; at a corner they differ. */
-template <int dim>
-void add_new(const PointCondition<dim> &condition, SupportedNode<dim> &node)
-{
-  if (std::none_of(node.conditions.begin(), node.conditions.end(),
-                   [&](const PointCondition<dim> &known)
-                   {
-                     return known.boundary == condition.boundary &&
-                            (known.direction - condition.direction).norm() < repeated_direction;
-                   }))
-    node.conditions.push_back(condition);
-}
-
 /** A plate exerts any force, and holds what its motion leaves to hold (Plate). */
 template <int dim>
 void add_plate(const BoundaryCondition<dim> &boundary, SupportedNode<dim> &node)
@@ -70,11 +57,23 @@ void add_plate(const BoundaryCondition<dim> &boundary, SupportedNode<dim> &node)
   {
     Tensor<1, dim> direction;
     direction[c] = 1.;
-    add_new({direction, 0., boundary.id}, node);
+    node.add({direction, 0., boundary.id});
   }
   node.is_on_plate = true;
 }
 } // namespace
+
+template <int dim>
+void SupportedNode<dim>::add(const PointCondition<dim> &condition)
+{
+  if (std::none_of(conditions.begin(), conditions.end(),
+                   [&](const PointCondition<dim> &known)
+                   {
+                     return known.boundary == condition.boundary &&
+                            (known.direction - condition.direction).norm() < repeated_direction;
+                   }))
+    conditions.push_back(condition);
+}
 
 // @sect3{Collecting them}
 //
@@ -111,7 +110,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
           node.x = map.point(reference);
           for (const PointCondition<dim> &condition : conditions_at(
                    boundary, map.curve_normal(f, reference), boundary.holds_normal(), node.x))
-            add_new(condition, node);
+            node.add(condition);
           if (boundary.plate)
             add_plate(boundary, node);
         }
@@ -196,8 +195,11 @@ std::vector<double> SupportedNode<dim>::split(const Tensor<1, dim> &force) const
 }
 
 template struct SupportedNode<2>;
+template struct SupportedNode<3>;
 template std::vector<SupportedNode<2>> supported_nodes(const Scene<2> &, const DofNumbering<2> &,
                                                        const ShapeTables<2> &);
 template void constrain_supports(const std::vector<SupportedNode<2>> &,
+                                 AffineConstraints<double> &);
+template void constrain_supports(const std::vector<SupportedNode<3>> &,
                                  AffineConstraints<double> &);
 } // namespace hpvi

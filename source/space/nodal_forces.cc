@@ -12,7 +12,6 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
-#include <set>
 
 namespace hpvi
 {
@@ -45,10 +44,11 @@ public:
 
   NodalReactions(const PrimalSpace<dim> &space, const PrimalSystem<dim> &system,
                  const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda);
-  NodalForces<dim> forces() const;
+  NodalForces<dim> forces() const; ///< collective
 
 private:
   void find_nodes();
+  void add_supports(NodalForces<dim> &result) const;
   void find_contact_forces(const std::vector<ContactVector<dim>> &lambda);
   void add_forces_opposite(const std::vector<ContactVector<dim>> &lambda, DistributedVector &sum);
   unsigned int body_of_boundary(const types::boundary_id boundary) const
@@ -64,7 +64,6 @@ private:
   {
     Point<dim> x;
     unsigned int component = 0, body = 0;
-    std::set<types::boundary_id> holds; ///< whose conditions hold it
   };
   std::vector<Node> nodes; ///< of the unknowns of this process
   std::vector<typename NodalForces<dim>::Reaction>
@@ -194,14 +193,6 @@ void NodalReactions<dim>::find_nodes()
       node.x = map.point(fe.unit_support_point(i));
       node.body = body;
       node.component = fe.system_to_component_index(i).first;
-      for (const unsigned int face : cell->face_indices())
-        if (cell->at_boundary(face) && fe.has_support_on_face(i, face))
-        {
-          const BoundaryCondition<dim> &condition = space.condition(cell, face);
-          if (condition.displacement[node.component] ||
-              (condition.holds_normal() && node.component == held_axis<dim>(cell, face)))
-            node.holds.insert(condition.id);
-        }
     }
   }
 }
@@ -261,6 +252,26 @@ std::vector<typename NodalForces<dim>::Traction> tractions(const PrimalSpace<dim
 
 /** Where several boundaries hold a node they share the reaction. */
 template <int dim>
+void NodalReactions<dim>::add_supports(NodalForces<dim> &result) const
+{
+  for (const SupportedNode<dim> &supported :
+       supported_nodes(space.scene, space.dof_handler, space.tables))
+  {
+    if (!space.owned.is_element(supported.dofs[0]))
+      continue;
+    Tensor<1, dim> force;
+    for (unsigned int c = 0; c < dim; ++c)
+      force[c] = reactions.local_element(space.owned.index_within_set(supported.dofs[c]));
+    const Node &node = nodes[space.owned.index_within_set(supported.dofs[0])];
+    const std::vector<double> shares = supported.split(force);
+    for (unsigned int k = 0; k < shares.size(); ++k)
+      result.reactions.push_back({supported.conditions[k].boundary,
+                                  shares[k] * supported.conditions[k].direction, node.x,
+                                  node.body});
+  }
+}
+
+template <int dim>
 NodalForces<dim> NodalReactions<dim>::forces() const
 {
   NodalForces<dim> result;
@@ -269,16 +280,12 @@ NodalForces<dim> NodalReactions<dim>::forces() const
     const Node &node = nodes[i];
     if (const double load = loads.local_element(i); load != 0)
       result.loads.push_back({node.component, load, node.x, node.body});
-    Tensor<1, dim> force;
-    force[node.component] =
-        reactions.local_element(i) / std::max<std::size_t>(1, node.holds.size());
-    for (const types::boundary_id boundary : node.holds)
-      result.reactions.push_back({boundary, force, node.x, node.body});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
   collectively(space.communicator(),
                [&]()
                {
+                 add_supports(result);
                  result.tractions = tractions(space);
                  add_springs(space, u, result.reactions);
                });

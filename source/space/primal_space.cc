@@ -41,7 +41,7 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
       collectively(communicator(), [&]() { masters = masters_of(scene); });
   number();
   collectively(communicator(),
-               [&]() { constrain_supports(scene, dof_handler, relevant, constraints); });
+               [&]() { constrain_supports(scene, dof_handler, tables, relevant, constraints); });
   make_consistent(constraints, owned, relevant, communicator());
   collectively(communicator(), [this]() { find_contact(); });
   find_opposite_faces();

@@ -4,7 +4,8 @@
 #include <hpvi/space/support_constraints.h>
 
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/numerics/vector_tools_boundary.h>
+
+#include <map>
 
 namespace hpvi
 {
@@ -12,93 +13,81 @@ using namespace dealii;
 
 namespace
 {
-/** The prescribed displacement of a boundary. */
+/** Outwards on a plane face; one along an axis has no round-off of the others. */
 template <int dim>
-class PrescribedDisplacement : public Function<dim>
-{
-public:
-  explicit PrescribedDisplacement(const BoundaryCondition<dim> &boundary)
-      : Function<dim>(dim), boundary(boundary)
-  {
-  }
-
-  void vector_value(const Point<dim> &x, Vector<double> &values) const override
-  {
-    for (unsigned int c = 0; c < dim; ++c)
-      values[c] = value(x, c);
-  }
-
-  double value(const Point<dim> &x, const unsigned int component) const override
-  {
-    const Expression<dim> &expression = boundary.displacement[component];
-    return expression ? expression->value(x) : 0.;
-  }
-
-private:
-  const BoundaryCondition<dim> &boundary;
-};
-} // namespace
-
-template <int dim>
-unsigned int held_axis(const typename Triangulation<dim>::cell_iterator &cell,
-                       const unsigned int face)
+Tensor<1, dim> normal_of_face(const CellMap<dim> &map, const unsigned int face)
 {
   Point<dim - 1> middle;
   for (unsigned int s = 0; s < dim - 1; ++s)
     middle[s] = 0.5;
-  const ContactAxes<dim> axes =
-      contact_axes(map_of<dim>(cell).normal(face, point_on_face<dim>(face, middle)));
-  AssertThrow(!axes.is_rotated(), ExcMessage("No axis is normal to a face with u_n = 0."));
-  return axes.axis;
-}
-
-namespace
-{
-/** u_n = 0 at all nodes of faces, one of which may have another axis than the next. */
-template <int dim>
-void hold_normals(const Scene<dim> &scene, const DoFHandler<dim> &dof_handler,
-                  const IndexSet &relevant, AffineConstraints<double> &constraints)
-{
-  const FiniteElement<dim> &fe = dof_handler.get_fe();
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
-  for (const auto &cell : dof_handler.active_cell_iterators())
-    for (const unsigned int face : cell->face_indices())
-    {
-      if (cell->is_artificial() || !cell->at_boundary(face) ||
-          !scene.boundaries[cell->face(face)->boundary_id()].holds_normal())
-        continue;
-      const unsigned int axis = held_axis<dim>(cell, face);
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (fe.system_to_component_index(i).first == axis && fe.has_support_on_face(i, face) &&
-            relevant.is_element(dofs[i]) && !constraints.is_constrained(dofs[i]))
-          constraints.add_line(dofs[i]);
-    }
+  const ContactAxes<dim> axes = contact_axes(map.normal(face, point_on_face<dim>(face, middle)));
+  if (axes.is_rotated())
+    return axes.normal;
+  Tensor<1, dim> result;
+  result[axes.axis] = axes.normal[axes.axis] > 0 ? 1. : -1.;
+  return result;
 }
 } // namespace
 
 template <int dim>
+std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
+                                                const DoFHandler<dim> &dof_handler,
+                                                const BoxTables<dim> &tables)
+{
+  std::map<types::global_dof_index, SupportedNode<dim>> nodes;
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+    {
+      if (cell->is_artificial() || !cell->at_boundary(face))
+        continue;
+      const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
+      if (!boundary.has_displacement() && !boundary.holds_normal())
+        continue;
+      const CellMap<dim> map = map_of<dim>(cell);
+      const Tensor<1, dim> normal = normal_of_face(map, face);
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < tables.n_shapes; ++i)
+      {
+        const auto &numbers = tables.numbers[i];
+        if (!tables.fe.has_support_on_face(numbers[0], face))
+          continue;
+        SupportedNode<dim> &node = nodes[dofs[numbers[0]]];
+        for (unsigned int c = 0; c < dim; ++c)
+          node.dofs[c] = dofs[numbers[c]];
+        node.x = map.point(tables.fe.unit_support_point(numbers[0]));
+        for (const PointCondition<dim> &condition :
+             conditions_at(boundary, normal, boundary.holds_normal(), node.x))
+          node.add(condition);
+      }
+    }
+  std::vector<SupportedNode<dim>> result;
+  for (auto &node : nodes)
+    result.push_back(std::move(node.second));
+  return result;
+}
+
+template <int dim>
 void constrain_supports(const Scene<dim> &scene, const DoFHandler<dim> &dof_handler,
-                        const IndexSet &relevant, AffineConstraints<double> &constraints)
+                        const BoxTables<dim> &tables, const IndexSet &relevant,
+                        AffineConstraints<double> &constraints)
 {
   constraints.reinit(relevant);
   DoFTools::make_hanging_node_constraints(dof_handler, constraints);
-  for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-  {
-    ComponentMask mask(dim, false);
-    for (unsigned int c = 0; c < dim; ++c)
-      mask.set(c, boundary.displacement[c] != nullptr);
-    if (mask.n_selected_components() > 0)
-      VectorTools::interpolate_boundary_values(
-          dof_handler, boundary.id, PrescribedDisplacement<dim>(boundary), constraints, mask);
-  }
-  hold_normals(scene, dof_handler, relevant, constraints);
+  std::vector<SupportedNode<dim>> nodes;
+  for (SupportedNode<dim> &node : supported_nodes(scene, dof_handler, tables))
+    // A hanging node depends on nodes of the same plane, which move along it.
+    if (relevant.is_element(node.dofs[0]) && !constraints.is_constrained(node.dofs[0]))
+      nodes.push_back(std::move(node));
+  constrain_supports(nodes, constraints);
 }
 
-template void constrain_supports(const Scene<2> &, const DoFHandler<2> &, const IndexSet &,
-                                 AffineConstraints<double> &);
-template void constrain_supports(const Scene<3> &, const DoFHandler<3> &, const IndexSet &,
-                                 AffineConstraints<double> &);
-template unsigned int held_axis<2>(const Triangulation<2>::cell_iterator &, unsigned int);
-template unsigned int held_axis<3>(const Triangulation<3>::cell_iterator &, unsigned int);
+template std::vector<SupportedNode<2>> supported_nodes(const Scene<2> &, const DoFHandler<2> &,
+                                                       const BoxTables<2> &);
+template std::vector<SupportedNode<3>> supported_nodes(const Scene<3> &, const DoFHandler<3> &,
+                                                       const BoxTables<3> &);
+template void constrain_supports(const Scene<2> &, const DoFHandler<2> &, const BoxTables<2> &,
+                                 const IndexSet &, AffineConstraints<double> &);
+template void constrain_supports(const Scene<3> &, const DoFHandler<3> &, const BoxTables<3> &,
+                                 const IndexSet &, AffineConstraints<double> &);
 } // namespace hpvi

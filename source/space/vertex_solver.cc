@@ -62,7 +62,7 @@ void VertexSolver::number()
           const Dof dof = own[tables.numbers[j][c]];
           if (space.constraints.is_constrained(of_mesh[space.tables.numbers[j][c]]) &&
               !constraints.is_constrained(dof))
-            constraints.add_line(dof);
+            copy_constraint(of_mesh, j, c, own);
           if (cell->is_locally_owned())
             of_own_cells.push_back(dof);
         }
@@ -74,9 +74,15 @@ void VertexSolver::number()
   needed.add_indices(of_own_cells.begin(), of_own_cells.end());
   residual.reinit(dof_handler.locally_owned_dofs(), needed, space.communicator());
   correction.reinit(residual);
+  const auto local = [this](const Dof dof)
+  { return residual.get_partitioner()->global_to_local(dof); };
   for (const Dof dof : dof_handler.locally_owned_dofs())
     if (constraints.is_constrained(dof))
-      constrained.push_back(residual.get_partitioner()->global_to_local(dof));
+    {
+      constrained.push_back({local(dof), {}});
+      for (const auto &[other, weight] : *constraints.get_constraint_entries(dof))
+        constrained.back().others.emplace_back(local(other), weight);
+    }
   std::vector<bool> is_taken(space.owned.n_elements());
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
@@ -96,6 +102,20 @@ void VertexSolver::number()
         }
       cells.back().end = nodes.size();
     }
+}
+
+/** Of a component at a corner, which is prescribed or depends on others there: no corner of the coarsest mesh hangs. */
+void VertexSolver::copy_constraint(const std::vector<Dof> &of_mesh, const unsigned int corner,
+                                   const unsigned int component, const std::vector<Dof> &own)
+{
+  const PrimalSpace<3> &space = level.space;
+  const Dof dof = own[tables.numbers[corner][component]];
+  constraints.add_line(dof);
+  for (const auto &[other, weight] :
+       *space.constraints.get_constraint_entries(of_mesh[space.tables.numbers[corner][component]]))
+    for (unsigned int c = 0; c < 3; ++c)
+      if (of_mesh[space.tables.numbers[corner][c]] == other)
+        constraints.add_entry(dof, own[tables.numbers[corner][c]], weight);
 }
 
 void VertexSolver::assemble()
@@ -335,11 +355,19 @@ void VertexSolver::correct(Vector &x, Vector &r) const
             residual.local_element(cell.vertices[j] + c) +=
                 weight * r.local_element(node->local + c);
   residual.compress(VectorOperation::add);
-  for (const unsigned int i : constrained)
-    residual.local_element(i) = 0;
+  for (const Constrained &one : constrained)
+  {
+    for (const auto &[other, weight] : one.others)
+      residual.local_element(other) += weight * residual.local_element(one.element);
+    residual.local_element(one.element) = 0;
+  }
   amg->vmult(correction, residual);
-  for (const unsigned int i : constrained)
-    correction.local_element(i) = 0;
+  for (const Constrained &one : constrained)
+  {
+    correction.local_element(one.element) = 0;
+    for (const auto &[other, weight] : one.others)
+      correction.local_element(one.element) += weight * correction.local_element(other);
+  }
   correction.update_ghost_values();
   change = 0;
   node = nodes.begin();

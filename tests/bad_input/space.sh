@@ -154,7 +154,7 @@ foot "element 50: the mesh has pyramids (1)" "transfinite" -- 's/^50 5 2 4 1 .*/
 foot "is in no physical volume" -- 's/^50 5 2 4 1/50 5 2 0 9/'
 foot "has a face of no cell" -- 's/^1 3 2 1 1 .*/1 3 2 1 1 1 2 3 4/'
 foot "cells may not overlap" -- 's/^50 5 2 4 1 .*/50 5 2 4 1 1 2 7 6 16 17 22 21/'
-foot "Boundary flank/Symmetry" "along no axis" -- '' --set "Boundary flank/Pressure=" --set "Boundary flank/Symmetry=true"
+foot "Boundary flank/Contact" "along no axis" "set unilateral" -- '' --set "Boundary flank/Pressure=" --set "Boundary flank/Contact=bilateral"
 foot "the boundary of the body has no physical surface" 'Physical Surface("left") = {4};' -- '5s/.*/1/; 6,8d; 90s/.*/32/; /^[0-9]* 3 2 /d'
 foot "Boundary side" "this scene has" -- '' --set "Boundary side/Pressure=1"
 foot "Boundary bottom/Curve" "unknown entry" -- '' --set "Boundary bottom/Curve=circle"

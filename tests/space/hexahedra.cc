@@ -277,6 +277,136 @@ TEST(Hexahedra, OfABoxAreTheBox)
     }
 }
 
+/** A block between three planes of symmetry, which meet in edges and a corner, pushed and heated: as it lies, and turned. */
+TEST(Hexahedra, StandBetweenPlanesOfSymmetryOfAnyDirection)
+{
+  std::vector<std::vector<Step>> runs;
+  std::vector<double> forces;
+  for (const bool is_rotated : {false, true})
+    for (const LinearMethod linear : {LinearMethod::multigrid, LinearMethod::direct})
+    {
+      Scene<3> scene =
+          scene_of({{{2, 2, 2}},
+                    is_rotated ? Map([](const Point<3> &x) { return turned(fan(x)); }) : Map(fan),
+                    true},
+                   "hexahedra-symmetry");
+      scene.boundary("top").displacement = {};
+      for (const char *const name : {"right", "bottom", "back"})
+        scene.boundary(name).symmetry = true;
+      scene.initial_strains.resize(1);
+      scene.initial_strains[0].expansion = 0.01;
+      scene.initial_strains[0].temperature = expression<3>(2.);
+      scene.adaptivity.method = Method::hap2;
+      scene.adaptivity.start_degree = 2;
+      scene.adaptivity.maximum_steps = 3;
+      scene.solver.primal_tolerance = 1e-12;
+      scene.solver.linear = linear;
+      const Point<3> load =
+          is_rotated ? turned(Point<3>(0.05, -0.1, 0.02)) : Point<3>(0.05, -0.1, 0.02);
+      for (unsigned int c = 0; c < 3; ++c)
+        scene.boundary("top").traction[c] = expression<3>(load[c]);
+      runs.push_back(steps_of<3>(scene,
+                                 [&](const StepReport<3> &step)
+                                 {
+                                   EXPECT_LT(step.equilibrium.force_imbalance, 1e-8);
+                                   EXPECT_LT(step.equilibrium.moment_imbalance, 1e-8);
+                                   double sum = 0;
+                                   for (const auto &reaction : step.equilibrium.reactions)
+                                     sum += reaction.force.norm();
+                                   forces.push_back(sum);
+                                 }));
+    }
+  for (unsigned int r = 1; r < runs.size(); ++r)
+  {
+    ASSERT_EQ(runs[r].size(), runs[0].size());
+    for (unsigned int k = 0; k < runs[r].size(); ++k)
+    {
+      EXPECT_EQ(runs[r][k].n_cells, runs[0][k].n_cells);
+      EXPECT_EQ(runs[r][k].n_free, runs[0][k].n_free);
+      EXPECT_NEAR(runs[r][k].lagrangian, runs[0][k].lagrangian,
+                  1e-9 * std::abs(runs[0][k].lagrangian));
+      EXPECT_NEAR(runs[r][k].estimate, runs[0][k].estimate, 1e-7 * runs[0][k].estimate);
+      EXPECT_NEAR(forces[r * runs[0].size() + k], forces[k], 1e-8 * forces[k]);
+    }
+  }
+}
+
+/** Of so many cells that ML solves on their corners, which depend on each other where a plane is along no axis. */
+TEST(Hexahedra, StandBetweenPlanesOfSymmetryOnMeshesOfManyCells)
+{
+  std::vector<double> energies;
+  for (const LinearMethod linear : {LinearMethod::multigrid, LinearMethod::direct})
+  {
+    Scene<3> scene = scene_of({{{6, 4, 6}}, [](const Point<3> &x) { return turned(fan(x)); }},
+                              "hexahedra-many-cells");
+    scene.boundary("top").displacement = {};
+    for (const char *const name : {"right", "bottom", "back"})
+      scene.boundary(name).symmetry = true;
+    scene.boundary("top").traction[1] = expression<3>(-0.1);
+    scene.adaptivity.method = Method::hup2;
+    scene.adaptivity.start_degree = 2;
+    scene.adaptivity.maximum_steps = 1;
+    scene.solver.primal_tolerance = 1e-11;
+    scene.solver.linear = linear;
+    steps_of<3>(scene,
+                [&](const StepReport<3> &step)
+                {
+                  energies.push_back(step.energies.lagrangian);
+                  EXPECT_EQ(step.primal->newton.linear, linear);
+                });
+  }
+  EXPECT_NEAR(energies.at(0), energies.at(1), 1e-9 * std::abs(energies.at(1)));
+}
+
+/** A layer with a side that is slanted, between planes of symmetry: that of plane strain, which integrates as it does on parallelograms. */
+TEST(Hexahedra, SlideAlongASlantedSideAsInThePlane)
+{
+  constexpr double depth = 0.5;
+  Scene<2> plane =
+      read_scene<2>("prm/han-6-12.prm", Overrides{{"Material/Plane", "strain"},
+                                                  {"Geometry/Subdivisions", "4, 2"},
+                                                  {"Boundary left/Traction", "0.3; 0.1*y"},
+                                                  {"Boundary right/Displacement", ""},
+                                                  {"Boundary right/Symmetry", "true"},
+                                                  {"Boundary bottom/Contact", "none"},
+                                                  {"Boundary bottom/Friction bound", ""},
+                                                  {"Boundary bottom/Symmetry", "true"},
+                                                  given::steps("hup2", "2")});
+  plane.geometry.shape = Shape::quadrilateral;
+  plane.geometry.corners =
+      quadrilateral_corners({{Point<2>(0, 0), Point<2>(4, 0), Point<2>(5, 2), Point<2>(1, 2)}});
+  Scene<3> scene = scene_of({{{4, 2, 1}},
+                             [](const Point<3> &x)
+                             { return Point<3>(4 * x[0] + x[1], 2 * x[1], depth * x[2]); }},
+                            "hexahedra-slanted");
+  scene.boundary("top").displacement = {};
+  for (const char *const name : {"right", "bottom", "front", "back"})
+    scene.boundary(name).symmetry = true;
+  scene.boundary("left").traction[0] = expression<3>(0.3);
+  scene.boundary("left").traction[1] = expression<3>(
+      std::function<double(const Point<3> &)>([](const Point<3> &x) { return 0.1 * x[1]; }));
+  scene.materials[0].young = plane.materials[0].young;
+  scene.materials[0].poisson = plane.materials[0].poisson;
+  scene.adaptivity.method = Method::hup2;
+  scene.adaptivity.start_degree = 2;
+  scene.adaptivity.maximum_steps = 2;
+  scene.solver.primal_tolerance = 1e-12;
+  std::vector<std::array<double, 3>> flat, thick;
+  const auto take = [](const auto &step, const double thickness, auto &to)
+  {
+    to.push_back({{step.energies.lagrangian / thickness, 0., 0.}});
+    for (const auto &reaction : step.equilibrium.reactions)
+      for (unsigned int c = 0; reaction.boundary == "right" && c < 2; ++c)
+        to.back()[1 + c] = reaction.force[c] / thickness;
+  };
+  AdaptiveSolver<2>(plane).run([&](const StepReport<2> &step) { take(step, 1., flat); });
+  steps_of<3>(scene, [&](const StepReport<3> &step) { take(step, depth, thick); });
+  ASSERT_EQ(flat.size(), thick.size());
+  for (unsigned int k = 0; k < flat.size(); ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_NEAR(thick[k][i], flat[k][i], 1e-8 * std::abs(flat[k][i])) << k << " " << i;
+}
+
 /** The block of prm/block-space.prm on its slope, turned: contact alone holds it, its normal along no axis. */
 TEST(Hexahedra, StandOnASlopeOfAnyDirection)
 {

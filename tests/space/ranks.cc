@@ -128,6 +128,18 @@ TEST(Ranks, HeldByContactAlone)
   }
 }
 
+/** A plane of symmetry along no axis: nodes depend on themselves, of this process and of others. */
+TEST(Ranks, ObliqueSymmetry)
+{
+  Scene<3> scene = read_scene<3>("prm/foot.prm", Overrides{{"Boundary flank/Pressure", ""},
+                                                           {"Boundary flank/Symmetry", "true"},
+                                                           {"Boundary top/Displacement", ""},
+                                                           {"Boundary top/Traction", "0; -0.1; 0"},
+                                                           given::steps("hap2", "2")});
+  scene.solver.primal_tolerance = 1e-11;
+  expect_same_run(scene);
+}
+
 /** Springs on refined meshes, of degree 2 and 3, by multigrid and without. */
 TEST(Ranks, Springs)
 {

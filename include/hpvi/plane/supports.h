@@ -20,6 +20,9 @@ struct SupportedNode
   std::vector<PointCondition<dim>> conditions;
   bool is_on_plate = false; ///< conditions say where its force can point to, and Plate what it does
 
+  /** But for one that the same boundary has said already: a node inside a side gets it from each of its cells. */
+  void add(const PointCondition<dim> &condition);
+
   /**
    * The force at this node, taken apart by the conditions that can exert it: coefficients mu with
    * `force = sum_k mu_k direction_k`, of least norm where conditions repeat each other.

@@ -2,28 +2,36 @@
 #ifndef hpvi_support_constraints_h
 #define hpvi_support_constraints_h
 
+#include <hpvi/plane/supports.h>
 #include <hpvi/scene/scene.h>
+#include <hpvi/space/box_tables.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <vector>
+
 namespace hpvi
 {
 /**
- * What holds nodes: hanging ones those of their neighbours, then prescribed displacements and, on faces whose normal is along an
- * axis, u_n = 0. @p constraints are those of the unknowns @p relevant, not closed. Throws InputError where an expression of the
- * scene is not finite.
+ * The nodes of cells of this process and beside it on boundaries with prescribed displacements or u_n = 0, by their first
+ * unknown, each with the conditions of all boundaries that meet there. Throws InputError where an expression of the scene is
+ * not finite.
+ */
+template <int dim>
+std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
+                                                const dealii::DoFHandler<dim> &dof_handler,
+                                                const BoxTables<dim> &tables);
+
+/**
+ * What holds nodes: hanging ones those of their neighbours, then supports in any direction. @p constraints are those of the
+ * unknowns @p relevant, not closed. Throws as supported_nodes().
  */
 template <int dim>
 void constrain_supports(const Scene<dim> &scene, const dealii::DoFHandler<dim> &dof_handler,
-                        const dealii::IndexSet &relevant,
+                        const BoxTables<dim> &tables, const dealii::IndexSet &relevant,
                         dealii::AffineConstraints<double> &constraints);
-
-/** The axis that u_n = 0 holds on a face of a cell. */
-template <int dim>
-unsigned int held_axis(const typename dealii::Triangulation<dim>::cell_iterator &cell,
-                       unsigned int face);
 } // namespace hpvi
 
 #endif

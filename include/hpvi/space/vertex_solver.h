@@ -58,6 +58,9 @@ private:
   };
 
   void number();
+  void copy_constraint(const std::vector<dealii::types::global_dof_index> &of_mesh,
+                       unsigned int corner, unsigned int component,
+                       const std::vector<dealii::types::global_dof_index> &own);
   void assemble();
   void find_contact();
   void find_opposite();
@@ -70,7 +73,8 @@ private:
   const MultigridLevel<float> &level;
   const BoxTables<3> tables; ///< of degree one
   dealii::DoFHandler<3> dof_handler;
-  dealii::AffineConstraints<double> constraints; ///< zero where the mesh is constrained
+  dealii::AffineConstraints<double>
+      constraints; ///< as of the mesh, with zeros for what is prescribed
   std::vector<Cell> cells;
   std::vector<Node> nodes;
   std::vector<std::array<double, 8>> weights; ///< of corners, by shape function of the mesh
@@ -80,7 +84,12 @@ private:
            std::vector<std::pair<dealii::types::global_dof_index, double>>>
       opposite;
   std::set<dealii::types::global_dof_index> held; ///< constrained ones of #faces, of any process
-  std::vector<unsigned int> constrained;          ///< of this process
+  struct Constrained ///< a local element, and those of the same corner that it depends on
+  {
+    unsigned int element;
+    std::vector<std::pair<unsigned int, double>> others;
+  };
+  std::vector<Constrained> constrained; ///< of this process
   dealii::TrilinosWrappers::SparseMatrix A;
   std::vector<Block> inserted; ///< S in A, of each contact dof
   std::vector<bool> was_held;  ///< when ML was set up

@@ -155,19 +155,18 @@ bool asks_for_displacements(const BoundaryCondition<dim> &boundary)
 }
 } // namespace
 
-/** u_n = 0 holds one component of a node: in space that of an axis. */
+/** Bilateral contact, which tells its forces node by node, holds one component: that of an axis. */
 void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
 {
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
     for (const Side<3>::Piece &piece : sides[boundary.id].pieces)
-      if (scene.geometry.has_mesh() && boundary.holds_normal() &&
+      if (scene.geometry.has_mesh() && boundary.holds_normal() && !boundary.symmetry &&
           contact_axes(normal_of(piece)).is_rotated())
-        reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Contact",
+        reject(scene, section_of(boundary), "Contact",
                "holds u_n = 0 on the face at " + to_string(piece[0]) +
                    ", whose normal is along no axis, which space does not offer; turn the body, "
-                   "or " +
-                   (boundary.symmetry ? "prescribe a displacement" : "set unilateral"),
-               boundary.symmetry ? "true" : "bilateral");
+                   "or set unilateral",
+               "bilateral");
 }
 
 template <int dim>
