@@ -352,6 +352,8 @@ BoundOfStep PrimalBackend<dim>::bound(double)
     result.missing = scene.error_bound ? no_error_bound(scene) : "Error/Bound = false";
     if (result.missing.empty())
       result.missing = no_box_bound(*space, u);
+    if (result.missing.empty() && !resolves_data())
+      result.missing = "the rule of its loads misses a part of them";
     if (!result.missing.empty())
       return result;
     begin("bounding the error of " + std::to_string(mesh->n_global_active_cells()) + " elements");

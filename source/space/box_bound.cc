@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/algebra/dense_algebra.h>
+#include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/text.h>
 #include <hpvi/space/box_bound.h>
 #include <hpvi/space/box_equilibration.h>
 #include <hpvi/space/upper_energy.h>
@@ -18,7 +20,9 @@ using namespace dealii;
 
 namespace
 {
-constexpr double same_load = 1e-12; ///< of a load: what differs by less is round-off
+constexpr double same_gap = 1e-12;   ///< of a gap: what differs by less is round-off
+constexpr double tolerable = 1e-9;   ///< imbalance of a patch, relative
+constexpr double smooth_load = 1e-6; ///< of the square of a load: by what two rules may differ
 
 /** Bernstein's polynomials of degree @p p at @p s in [0,1]. */
 std::vector<double> bernstein(const unsigned int p, const double s)
@@ -42,14 +46,27 @@ FullMatrix<double> values_at(const QGauss<1> &rule, const unsigned int p)
   return result;
 }
 
+/** Values of modes. */
+FullMatrix<double> modes_at(const QGauss<1> &rule, const unsigned int p)
+{
+  FullMatrix<double> result(rule.size(), p + 1);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const std::vector<double> L = legendre::values(p + 1, 2 * rule.point(q)[0] - 1);
+    for (unsigned int j = 0; j <= p; ++j)
+      result(q, j) = L[j];
+  }
+  return result;
+}
+
 /** Matrices between what represents a polynomial of degree p in one variable. */
 struct Representations
 {
   explicit Representations(const unsigned int p)
-      : gauss(p + 1), fine(p + 6), finer(2 * p + 12), nodes(p + 1), to_gauss(p + 1, p + 1),
+      : gauss(p + 1), fine(p + 6), finer(2 * p + 12), nodes(p + 1), to_gauss(modes_at(gauss, p)),
         from_gauss(p + 1, p + 1), gauss_values(values_at(gauss, p)), nodal(p + 1, p + 1),
         to_nodes(p + 1, p + 1), modes(tables.from_nodes(p)), modes_transposed(p + 1, p + 1),
-        to_fine(values_at(fine, p)), to_finer(values_at(finer, p))
+        to_fine(values_at(fine, p)), modes_to_fine(modes_at(fine, p)), to_finer(values_at(finer, p))
   {
     const FE_Q<1> element(p);
     const std::vector<unsigned int> numbers = FETools::hierarchic_to_lexicographic_numbering<1>(p);
@@ -65,26 +82,21 @@ struct Representations
     nodal.invert(at_nodes);
     from_gauss.invert(gauss_values);
     modes_transposed.copy_transposed(modes);
-    for (unsigned int q = 0; q <= p; ++q)
-    {
-      const std::vector<double> L = legendre::values(p + 1, 2 * gauss.point(q)[0] - 1);
-      for (unsigned int j = 0; j <= p; ++j)
-        to_gauss(q, j) = L[j];
-    }
   }
 
   LegendreTables tables;
   const QGauss<1> gauss, fine, finer;
   std::vector<double> nodes;             ///< of Gauss and Lobatto
-  FullMatrix<double> to_gauss;           ///< values of modes at gauss
+  const FullMatrix<double> to_gauss;     ///< values of modes at gauss
   FullMatrix<double> from_gauss;         ///< Bernstein coefficients of values at gauss
   const FullMatrix<double> gauss_values; ///< the other way
   FullMatrix<double> nodal;              ///< Bernstein coefficients of values at nodes
   FullMatrix<double> to_nodes;           ///< the other way
   const FullMatrix<double> &modes;       ///< of values at nodes
   FullMatrix<double> modes_transposed;
-  const FullMatrix<double> to_fine,
-      to_finer; ///< values at #fine and #finer of Bernstein coefficients
+  const FullMatrix<double> to_fine;       ///< values at #fine of Bernstein coefficients
+  const FullMatrix<double> modes_to_fine; ///< of modes
+  const FullMatrix<double> to_finer;      ///< values at #finer of Bernstein coefficients
 };
 
 /** Values of f at tensor products of @p rule on a face or, @p face invalid, in a cell. */
@@ -164,7 +176,9 @@ private:
   Vector<double> modes(const Cell &cell, const DistributedVector &of) const;
   void take_loads();
   BoxModes projected(const Load<3> &load, unsigned int component, const CellMap<3> &map, int face,
-                     double &missed) const;
+                     double &missed);
+  double missed_by(const BoxModes &modes, const std::vector<double> &values,
+                   unsigned int n_axes) const;
   void take_contact(const BoxEquilibration &elements);
   ContactTractions tractions(const ContactDofFace<3> &face, const BoxStress &element) const;
   void give(const ContactDofFace<3> &face, const ContactTractions &contact);
@@ -174,6 +188,10 @@ private:
   std::vector<std::vector<types::global_dof_index>> face_dofs(const ContactDofFace<3> &face) const;
   std::vector<bool> held() const;
   BoxModes violation(const ContactDofFace<3> &face, unsigned int component) const;
+  BoxModes gaps_at_nodes(const ContactDofFace<3> &face) const;
+  void set_above();
+  void correct_along(const ContactDofFace<3> &face, unsigned int c,
+                     const std::vector<bool> &is_held);
   double constrained_value(types::global_dof_index dof) const;
   void keep_edges(const std::vector<types::global_dof_index> &dofs, double sign,
                   BoxModes &coefficients) const;
@@ -195,8 +213,10 @@ private:
   std::vector<std::array<double, 7>> missed; ///< |F - Pi F|, |G - Pi G| by cell
   std::vector<double> moved, gaps;           ///< |w|_K^2 and gap(u_N - w) by cell
   DistributedVector w;
-  double change = 0; ///< J(u_N - w) - J(u_N)
-  double work = 0;   ///< L(u_N)
+  double change = 0;   ///< J(u_N - w) - J(u_N)
+  double work = 0;     ///< L(u_N)
+  double of_rules = 0; ///< by how much rules differ in these
+  double above = 0;    ///< what polynomials through nodes of gaps are above them at most [length]
   std::string flaw;
 };
 
@@ -221,27 +241,39 @@ Vector<double> BoxBound::modes(const Cell &cell, const DistributedVector &of_vec
 
 /** Coefficients of the projection onto polynomials of degree p; @p missed: the square of what is left. */
 BoxModes BoxBound::projected(const Load<3> &load, const unsigned int component,
-                             const CellMap<3> &map, const int face, double &missed_square) const
+                             const CellMap<3> &map, const int face, double &missed_square)
 {
   const unsigned int n_axes = face < 0 ? 3 : 2;
   std::vector<double> values;
+  std::array<double, 2> squares{}; // by two rules
+  for (const bool is_finer : {true, false})
+    at_points(is_finer ? of.finer : of.fine, n_axes,
+              [&](unsigned int, const std::array<double, 3> &x, const double weight)
+              {
+                const Point<3> reference =
+                    face < 0 ? Point<3>(x[0], x[1], x[2]) : on_cell_face(face, x);
+                const double value = load[component]->value(map.point(reference));
+                squares[is_finer] += weight * value * value;
+                if (!is_finer)
+                  values.push_back(value);
+              });
+  if (std::abs(squares[1] - squares[0]) > smooth_load * squares[1])
+    flaw = "a load is not smooth inside the cell at " + to_string(map.point(Point<3>(.5, .5, .5)));
+  const BoxModes result = along_axes(of.tables.projection(p + 1, of.fine.size()), values, n_axes);
+  missed_square += missed_by(result, values, n_axes);
+  return result;
+}
+
+/** The mean square of what modes lack of values at the fine points. */
+double BoxBound::missed_by(const BoxModes &modes, const std::vector<double> &values,
+                           const unsigned int n_axes) const
+{
+  const BoxModes kept = along_axes(of.modes_to_fine, modes, n_axes);
   double square = 0;
   at_points(of.fine, n_axes,
-            [&](unsigned int, const std::array<double, 3> &x, const double weight)
-            {
-              const Point<3> reference =
-                  face < 0 ? Point<3>(x[0], x[1], x[2]) : on_cell_face(face, x);
-              values.push_back(load[component]->value(map.point(reference)));
-              square += weight * values.back() * values.back();
-            });
-  const FullMatrix<double> &projection = of.tables.projection(p + 1, of.fine.size());
-  const BoxModes result = along_axes(projection, values, n_axes);
-  double kept = 0; // modes are orthonormal on [-1,1]^n
-  for (const double mode : result)
-    kept += mode * mode / std::pow(2., n_axes);
-  if (square - kept > same_load * square)
-    missed_square += square - kept;
-  return result;
+            [&](const unsigned int q, const auto &, const double weight)
+            { square += weight * std::pow(values[q] - kept[q], 2); });
+  return square;
 }
 
 void BoxBound::take_loads()
@@ -383,15 +415,7 @@ void BoxBound::give(const ContactDofFace<3> &face, const ContactTractions &of_fa
   const auto add = [&](const unsigned int component, const BoxModes &values)
   {
     const BoxModes of_component = along_axes(projection, values, 2);
-    double square = 0, kept = 0;
-    at_points(of.fine, 2,
-              [&](const unsigned int q, const auto &, const double weight)
-              { square += weight * values[q] * values[q]; });
-    for (const double mode : of_component)
-      kept += mode * mode / 4;
-    if (square - kept > same_load * square)
-      missed[cell][face.face] =
-          std::hypot(missed[cell][face.face], std::sqrt(area * (square - kept)));
+    missed[cell][face.face] += std::sqrt(area * missed_by(of_component, values, 2));
     BoxModes &sum = side.modes[component];
     sum.resize(of_component.size());
     for (unsigned int i = 0; i < sum.size(); ++i)
@@ -543,22 +567,38 @@ BoxModes BoxBound::violation(const ContactDofFace<3> &face, const unsigned int c
     values.push_back(u(dof));
   if (component != face.face / 2)
     return along_axes(of.nodal, values, 2);
+  const BoxModes gaps = gaps_at_nodes(face);
+  for (unsigned int i = 0; i < values.size(); ++i)
+    values[i] = sign * values[i] - gaps[i];
+  result = along_axes(of.nodal, values, 2);
+  for (double &coefficient : result)
+    coefficient += above;
+  return result;
+}
+
+BoxModes BoxBound::gaps_at_nodes(const ContactDofFace<3> &face) const
+{
   const CellMap<3> map = map_of<3>(face.cell);
   const Expression<3> &gap = space.condition(face.cell, face.face).gap;
-  BoxModes gaps;
-  for (unsigned int i = 0; i < values.size(); ++i)
+  BoxModes result((p + 1) * (p + 1));
+  for (unsigned int i = 0; gap && i < result.size(); ++i)
+    result[i] = gap->value(
+        map.point(on_cell_face(face.face, {{of.nodes[i % (p + 1)], of.nodes[i / (p + 1)], 0.}})));
+  return result;
+}
+
+/** Of all faces: neighbours have the same values at nodes that they share. */
+void BoxBound::set_above()
+{
+  double largest = 0;
+  for (const ContactDofFace<3> &face : space.faces)
   {
-    values[i] *= sign;
-    gaps.push_back(gap ? gap->value(map.point(on_cell_face(
-                             face.face, {{of.nodes[i % (p + 1)], of.nodes[i / (p + 1)], 0.}})))
-                       : 0.);
-    values[i] -= gaps.back();
-  }
-  result = along_axes(of.nodal, values, 2);
-  double above = 0, largest = 0; // by how much the polynomial through its nodes is above the gap
-  if (gap)
-  {
-    const BoxModes interpolated = along_axes(of.to_fine, along_axes(of.nodal, gaps, 2), 2);
+    const Expression<3> &gap = space.condition(face.cell, face.face).gap;
+    if (!gap)
+      continue;
+    const CellMap<3> map = map_of<3>(face.cell);
+    const BoxModes interpolated =
+        along_axes(of.to_fine, along_axes(of.nodal, gaps_at_nodes(face), 2), 2);
     at_points(of.fine, 2,
               [&](const unsigned int q, const std::array<double, 3> &x, double)
               {
@@ -567,10 +607,8 @@ BoxModes BoxBound::violation(const ContactDofFace<3> &face, const unsigned int c
                 largest = std::max(largest, std::abs(value));
               });
   }
-  if (above > same_load * largest)
-    for (double &coefficient : result)
-      coefficient += above;
-  return result;
+  if (above <= same_gap * largest)
+    above = 0;
 }
 
 void BoxBound::correct()
@@ -582,27 +620,14 @@ void BoxBound::correct()
   std::stable_sort(order.begin(), order.end(),
                    [this](const unsigned int a, const unsigned int b)
                    { return space.faces[a].cell->level() < space.faces[b].cell->level(); });
-  for (const unsigned int number : order)
-  {
-    const ContactDofFace<3> &face = space.faces[number];
-    const auto dofs = face_dofs(face);
-    for (unsigned int c = 0; c < 3; ++c)
-    {
-      const bool is_normal = c == face.face / 2;
-      if (!(is_normal ? face.has_pressure() : face.has_friction()))
-        continue;
-      const double sign = is_normal && face.face % 2 == 0 ? -1. : 1.;
-      BoxModes coefficients = violation(face, c);
-      for (unsigned int i = 0; i < coefficients.size(); ++i)
-        if (!is_held[dofs[c][i]])
-          coefficients[i] = is_normal ? std::max(0., coefficients[i]) : 0.;
-      keep_edges(dofs[c], sign, coefficients);
-      const BoxModes values = along_axes(of.to_nodes, coefficients, 2);
-      for (unsigned int i = 0; i < values.size(); ++i)
-        if (!space.constraints.is_constrained(dofs[c][i]))
-          w(dofs[c][i]) = sign * values[i];
-    }
-  }
+  set_above();
+  for (const bool is_normal : {false, true}) // what must not penetrate has the last word
+    for (const unsigned int number : order)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (const ContactDofFace<3> &face = space.faces[number];
+            (c == face.face / 2) == is_normal &&
+            (is_normal ? face.has_pressure() : face.has_friction()))
+          correct_along(face, c, is_held);
   for (const auto dof : space.owned)
     if (space.constraints.is_constrained(dof))
       w(dof) = constrained_value(dof);
@@ -617,9 +642,27 @@ void BoxBound::correct()
         values.push_back(sign * w(dof));
       const BoxModes of_w = along_axes(of.nodal, values, 2), needed = violation(face, c);
       for (unsigned int i = 0; i < of_w.size(); ++i)
-        if (needed[i] - of_w[i] > 1e-9 * u.linfty_norm())
+        if (needed[i] - of_w[i] > same_gap * u.linfty_norm())
           flaw = "a support holds the body where its gap closes";
     }
+}
+
+/** Component @p c of w on one face. */
+void BoxBound::correct_along(const ContactDofFace<3> &face, const unsigned int c,
+                             const std::vector<bool> &is_held)
+{
+  const auto dofs = face_dofs(face)[c];
+  const bool is_normal = c == face.face / 2;
+  const double sign = is_normal && face.face % 2 == 0 ? -1. : 1.;
+  BoxModes coefficients = violation(face, c);
+  for (unsigned int i = 0; i < coefficients.size(); ++i)
+    if (!is_held[dofs[i]])
+      coefficients[i] = is_normal ? std::max(0., coefficients[i]) : 0.;
+  keep_edges(dofs, sign, coefficients);
+  const BoxModes values = along_axes(of.to_nodes, coefficients, 2);
+  for (unsigned int i = 0; i < values.size(); ++i)
+    if (!space.constraints.is_constrained(dofs[i]))
+      w(dofs[i]) = sign * values[i];
 }
 
 double BoxBound::constrained_value(const types::global_dof_index dof) const
@@ -674,7 +717,7 @@ void BoxBound::set_gap(const ContactDofFace<3> &face, const ContactTractions &of
       of_u[c].push_back(u(dof));
       of_w[c].push_back(w(dof));
     }
-  std::array<double, 2> by_rule{};
+  std::array<double, 2> by_rule{}, changes{};
   for (const bool is_finer : {false, true})
   {
     const QGauss<1> &rule = is_finer ? of.finer : of.fine;
@@ -717,15 +760,15 @@ void BoxBound::set_gap(const ContactDofFace<3> &face, const ContactTractions &of
                   of_u_contact += contact_q[2][q] * u_n;
                 }
                 by_rule[is_finer] += weight * area * gap;
+                changes[is_finer] += weight * area * (friction + of_contact);
                 if (is_finer)
-                {
-                  change += weight * area * (friction + of_contact);
                   work += weight * area * of_u_contact;
-                }
               });
   }
   gaps[face.cell->active_cell_index()] +=
       std::max(0., by_rule[1]) + std::abs(by_rule[1] - by_rule[0]);
+  change += changes[1];
+  of_rules += std::abs(changes[1] - changes[0]);
 }
 
 ErrorBound BoxBound::compute()
@@ -753,6 +796,9 @@ ErrorBound BoxBound::compute()
   }
   ErrorBound result;
   result.imbalance = stresses.balance(of_near);
+  if (!(result.imbalance <= tolerable))
+    flaw = "patches of cells are out of balance by up to " + text(result.imbalance, 2) +
+           " of their stresses";
   double A = 0, b = 0, gap = 0;
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
@@ -778,9 +824,9 @@ ErrorBound BoxBound::compute()
   result.lifted.resize(cells.size());
   result.total = result.estimate = result.radius = least_root(A, gap, b);
   result.energy = std::pow(A + b, 2) / 2 + gap;
-  const double of_loads = std::abs(work - work_of_rule);
-  result.energy_above = (b == 0 ? 0. : change) + of_loads;
-  result.energy_below = result.energy - (b == 0 ? 0. : change) + of_loads;
+  of_rules += std::abs(work - work_of_rule);
+  result.energy_above = (b == 0 ? 0. : change) + of_rules;
+  result.energy_below = result.energy - (b == 0 ? 0. : change) + of_rules;
   result.flaw = flaw;
   if (space.scene.has_coulomb_friction())
   {
@@ -813,7 +859,7 @@ std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u
       return "bilateral contact has a gap";
     else if (boundary.contact != Contact::unilateral && boundary.friction.knows_pressure())
       return "friction knows the pressure of contact that does not open";
-  if (missed_displacement(space, u) > 1e-9 * u.linfty_norm())
+  if (missed_displacement(space, u) > round_off_of_supports * u.linfty_norm())
     return "prescribed displacements are no polynomials of the degree of the cells";
   return {};
 }

@@ -26,6 +26,9 @@ constexpr unsigned int maximum_updates = 60; ///< of the augmented Lagrangian
 template <int dim>
 constexpr unsigned int many_moments = dim == 2 ? 100 : numbers::invalid_unsigned_int;
 
+/** Of the largest internal forces so far: loads that are smaller are no size to compare a residual with. */
+constexpr double least_load = 1e-3;
+
 /** Of the residual two steps before: one that has not fallen below goes to and fro between two sets of states. */
 constexpr double to_and_fro = 0.9;
 
@@ -141,6 +144,7 @@ typename SemismoothNewton<dim>::Residual SemismoothNewton<dim>::residual(const D
 {
   DistributedVector product = v;
   matrix.multiply(product, v);
+  internal = std::max(internal, product.l2_norm());
   r = system.f;
   r -= product;
   double on_contact = 0, gaps = 0, forces = 0;
@@ -164,7 +168,7 @@ typename SemismoothNewton<dim>::Residual SemismoothNewton<dim>::residual(const D
   std::vector<double> sums(mine.size());
   Utilities::MPI::sum(mine, space.communicator(), sums);
   return {std::sqrt(off_contact().norm_sqr() + sums[0]), std::max(0., sums[1]),
-          std::max(system.f.l2_norm(), std::sqrt(sums[2]))};
+          std::max({system.f.l2_norm(), std::sqrt(sums[2]), least_load * internal})};
 }
 
 template <int dim>

@@ -27,6 +27,23 @@ Tensor<1, dim> normal_of_face(const CellMap<dim> &map, const unsigned int face)
   result[axes.axis] = axes.normal[axes.axis] > 0 ? 1. : -1.;
   return result;
 }
+
+/** What holds a face. */
+template <int dim>
+struct Support
+{
+  const BoundaryCondition<dim> *boundary;
+  Tensor<1, dim> normal;
+};
+
+bool is_on_line(const Point<3> &x, const unsigned int line)
+{
+  const Point<3> a = GeometryInfo<3>::unit_cell_vertex(
+                     GeometryInfo<3>::line_to_cell_vertices(line, 0)),
+                 b = GeometryInfo<3>::unit_cell_vertex(
+                     GeometryInfo<3>::line_to_cell_vertices(line, 1));
+  return std::abs(a.distance(x) + x.distance(b) - 1) < 1e-12;
+}
 } // namespace
 
 template <int dim>
@@ -35,7 +52,20 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
                                                 const BoxTables<dim> &tables)
 {
   std::map<types::global_dof_index, SupportedNode<dim>> nodes;
+  std::map<unsigned int, std::vector<Support<dim>>> of_edge;
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  const auto add =
+      [&](const unsigned int shape, const CellMap<dim> &map, const Support<dim> &support)
+  {
+    const auto &numbers = tables.numbers[shape];
+    SupportedNode<dim> &node = nodes[dofs[numbers[0]]];
+    for (unsigned int c = 0; c < dim; ++c)
+      node.dofs[c] = dofs[numbers[c]];
+    node.x = map.point(tables.fe.unit_support_point(numbers[0]));
+    for (const PointCondition<dim> &condition :
+         conditions_at(*support.boundary, support.normal, support.boundary->holds_normal(), node.x))
+      node.add(condition);
+  };
   for (const auto &cell : dof_handler.active_cell_iterators())
     for (const unsigned int face : cell->face_indices())
     {
@@ -45,22 +75,30 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
       if (!boundary.has_displacement() && !boundary.holds_normal())
         continue;
       const CellMap<dim> map = map_of<dim>(cell);
-      const Tensor<1, dim> normal = normal_of_face(map, face);
+      const Support<dim> support{&boundary, normal_of_face(map, face)};
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < tables.n_shapes; ++i)
-      {
-        const auto &numbers = tables.numbers[i];
-        if (!tables.fe.has_support_on_face(numbers[0], face))
-          continue;
-        SupportedNode<dim> &node = nodes[dofs[numbers[0]]];
-        for (unsigned int c = 0; c < dim; ++c)
-          node.dofs[c] = dofs[numbers[c]];
-        node.x = map.point(tables.fe.unit_support_point(numbers[0]));
-        for (const PointCondition<dim> &condition :
-             conditions_at(boundary, normal, boundary.holds_normal(), node.x))
-          node.add(condition);
-      }
+        if (tables.fe.has_support_on_face(tables.numbers[i][0], face))
+          add(i, map, support);
+      if constexpr (dim == 3)
+        for (unsigned int l = 0; l < GeometryInfo<2>::lines_per_cell; ++l)
+          of_edge[cell->face(face)->line_index(l)].push_back(support);
     }
+  // Where a support ends on a side an edge may be that of a larger cell, whose own face is free.
+  if constexpr (dim == 3)
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      for (unsigned int l = 0; l < GeometryInfo<3>::lines_per_cell; ++l)
+        if (!cell->is_artificial() && cell->line(l)->has_children())
+          for (unsigned int half = 0; half < 2; ++half)
+            if (const auto found = of_edge.find(cell->line(l)->child_index(half));
+                found != of_edge.end())
+            {
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = 0; i < tables.n_shapes; ++i)
+                if (is_on_line(tables.fe.unit_support_point(tables.numbers[i][0]), l))
+                  for (const Support<dim> &support : found->second)
+                    add(i, map_of<dim>(cell), support);
+            }
   std::vector<SupportedNode<dim>> result;
   for (auto &node : nodes)
     result.push_back(std::move(node.second));
@@ -76,7 +114,7 @@ void constrain_supports(const Scene<dim> &scene, const DoFHandler<dim> &dof_hand
   DoFTools::make_hanging_node_constraints(dof_handler, constraints);
   std::vector<SupportedNode<dim>> nodes;
   for (SupportedNode<dim> &node : supported_nodes(scene, dof_handler, tables))
-    // A hanging node depends on nodes of the same plane, which move along it.
+    // A hanging node depends on nodes of the same support.
     if (relevant.is_element(node.dofs[0]) && !constraints.is_constrained(node.dofs[0]))
       nodes.push_back(std::move(node));
   constrain_supports(nodes, constraints);

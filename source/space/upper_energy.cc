@@ -35,6 +35,8 @@ double missed_on(const typename PrimalSpace<dim>::Cell &cell, const unsigned int
     for (unsigned int c = 0; c < dim; ++c)
       if (condition.displacement[c])
         largest = std::max(largest, std::abs(value[c] - condition.displacement[c]->value(x)));
+    if (condition.holds_normal())
+      largest = std::max(largest, std::abs(value * map.normal(face, reference)));
   }
   return largest;
 }
@@ -50,7 +52,8 @@ double missed_displacement(const PrimalSpace<dim> &space, const DistributedVecto
                  for (const auto &cell : space.dof_handler.active_cell_iterators())
                    for (const unsigned int face : cell->face_indices())
                      if (cell->is_locally_owned() && cell->at_boundary(face) &&
-                         space.condition(cell, face).has_displacement())
+                         (space.condition(cell, face).has_displacement() ||
+                          space.condition(cell, face).holds_normal()))
                        largest = std::max(largest, missed_on<dim>(cell, face, space, u));
                });
   return Utilities::MPI::max(largest, space.communicator());
@@ -66,7 +69,8 @@ double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
       std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
                   [](const BoundaryCondition<dim> &boundary) { return boundary.spring.varies(); });
   if (springs_vary || scene.has_unilateral_contact() || scene.has_pairs() ||
-      scene.has_coulomb_friction() || missed_displacement(space, u) > 1e-9 * u.linfty_norm())
+      scene.has_coulomb_friction() ||
+      missed_displacement(space, u) > round_off_of_supports * u.linfty_norm())
     return none;
   const double finer = load_work(scene, space, u, 2 * (space.tables.degree + 1)),
                difference = std::abs(finer - work);

@@ -2,6 +2,8 @@
 // The upper end of the least energy, J(u_N): where u_N is admissible, and nowhere else.
 #include "reduced_path.h"
 
+#include <hpvi/space/upper_energy.h>
+
 namespace
 {
 using namespace space;
@@ -151,6 +153,41 @@ TEST(BoxBound, HoldsOfFinerMeshes)
   }
 }
 
+/** A support that ends on a side holds the edges of larger cells there. */
+TEST(BoxBound, HoldsWhereSupportsEnd)
+{
+  const auto run = [](const Overrides &adaptivity)
+  {
+    Overrides all{{"Geometry/Upper corner", "2, 1, 1"},
+                  {"Geometry/Subdivisions", "2, 1, 1"},
+                  {"Boundary bottom/Contact", "none"},
+                  {"Boundary bottom/Friction bound", ""},
+                  {"Boundary held/On", "bottom"},
+                  {"Boundary held/Where", "1 - x"},
+                  {"Boundary held/Contact", "bilateral"},
+                  {"Boundary left/Displacement", "0; free; 0"},
+                  {"Boundary left/Traction", "0; 0.2*(z-0.5)^3; 0"},
+                  {"Boundary right/Displacement", ""},
+                  {"Boundary right/Traction", "0; 0.1; 0"},
+                  {"Error/Bound", "true"},
+                  adaptivity};
+    std::pair<double, double> ends;
+    steps_of<3>(slab(all),
+                [&](const StepReport<3> &step)
+                {
+                  ASSERT_TRUE(step.bound) << step.no_bound;
+                  EXPECT_LT(missed_displacement(step.primal->space, step.primal->u), 1e-13);
+                  ends = {step.energies.energy - step.bound->energy_below,
+                          step.energies.energy + step.bound->energy_above};
+                });
+    return ends;
+  };
+  const auto coarse = run({given::steps("hap2", "2"), {"Adaptivity/hap threshold", "1"}}),
+             fine = run(given::steps("hup2", "3"));
+  EXPECT_LT(coarse.first, fine.second);
+  EXPECT_LT(fine.first, coarse.second);
+}
+
 TEST(BoxBound, SaysWhyThereIsNone)
 {
   const std::vector<std::pair<Overrides, std::string>> cases{
@@ -160,6 +197,7 @@ TEST(BoxBound, SaysWhyThereIsNone)
       {{{"Boundary left/Spring", "10"}}, "springs"},
       {{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", "10 + x"}},
        "initial strain"},
+      {{{"Boundary left/Traction", "if(y > 3.985, 400, 0); -0.75; 0.5"}}, "not smooth"},
       {{{"Error/Bound", "false"}}, "Error/Bound = false"}};
   for (const auto &[entries, why] : cases)
   {

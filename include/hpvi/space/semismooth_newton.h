@@ -88,7 +88,7 @@ private:
   {
     double norm = 0, gap = 0;
     double load =
-        0; ///< to which the norm is compared: of the load vector or, if that is larger, of pressures' forces
+        0; ///< to which the norm is compared: the largest of the load vector's, of that of pressures' forces, and of a part of #internal
   };
 
   bool acts(unsigned int k) const; ///< no friction acts where g = 0
@@ -117,8 +117,9 @@ private:
   std::vector<double> weights; ///< G of each contact dof
   std::vector<double> c;       ///< of each contact dof [1/length; of a pressure stress/length]
   std::vector<ContactVector<dim>> lambda, z;
-  double previous = 0;                                ///< norm of the residual before the last step
-  DistributedVector r;                                ///< f - A v of the last residual()
+  double internal = 0; ///< the largest norm of A v so far: the size of forces where loads vanish
+  double previous = 0; ///< norm of the residual before the last step
+  DistributedVector r; ///< f - A v of the last residual()
   std::unique_ptr<AugmentedLagrangian<dim>> fallback; ///< where it is needed
 };
 } // namespace hpvi

@@ -7,7 +7,10 @@
 
 namespace hpvi
 {
-/** By how much @p u misses prescribed displacements between their nodes at most [length]. Collective. */
+/** Of the largest displacement: what interpolation of a polynomial misses. */
+constexpr double round_off_of_supports = 1e-13;
+
+/** By how much @p u misses what supports prescribe between their nodes at most [length]. Collective. */
 template <int dim>
 double missed_displacement(const PrimalSpace<dim> &space, const DistributedVector &u);
 
