@@ -194,7 +194,7 @@ TEST(BoxBound, SaysWhyThereIsNone)
       {{given::coulomb("0.3")}, "contact that does not open"},
       {{given::coulomb("0.3"), {"Boundary bottom/Contact", "unilateral"}}, "coupling"},
       {{{"Boundary right/Displacement", "0.01*sin(y); 0; 0"}}, "no polynomials"},
-      {{{"Boundary left/Spring", "10"}}, "springs"},
+      {{{"Boundary left/Spring", "10; 0"}}, "springs"},
       {{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", "10 + x"}},
        "initial strain"},
       {{{"Boundary left/Traction", "if(y > 3.985, 400, 0); -0.75; 0.5"}}, "not smooth"},

@@ -223,12 +223,11 @@ TEST(History, SlipIsCountedFromTheLoadStepBefore)
 /** Loads that come back to zero take the body back with them. */
 TEST(History, LoadsMayVanish)
 {
-  const auto states =
-      evolution<3>(read_scene<3>("prm/slab.prm", {given::coulomb("0.3"),
-                                                  given::steps("hup2", "1"),
-                                                  {"Boundary bottom/Contact", "unilateral"},
-                                                  {"Boundary left/Traction", "0.4*(1 - t)*t; 0; 0"},
-                                                  {"Loading/Steps", "2"}}));
+  const auto states = evolution<3>(slab({given::coulomb("0.3"),
+                                         given::steps("hup2", "1"),
+                                         {"Boundary bottom/Contact", "unilateral"},
+                                         {"Boundary left/Traction", "0.4*(1 - t)*t; 0; 0"},
+                                         {"Loading/Steps", "2"}}));
   ASSERT_EQ(states.size(), 2);
   EXPECT_LT(states[1].norm, 1e-6 * states[0].norm);
 }
