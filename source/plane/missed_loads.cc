@@ -6,6 +6,7 @@
 #include <hpvi/plane/missed_loads.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace hpvi
@@ -43,6 +44,7 @@ DatumValue sum_of_loads(const Discretisation<2> &discretisation)
   const DisplacementSpace<2> &space = discretisation.spaces->displacement_space;
   const ShapeTables<2> &tables = *discretisation.spaces->tables;
   Vector<double> of_mesh = discretisation.system.loads();
+  const double round_off = 1e-14 * of_mesh.l1_norm(); // of what is taken away again
   if (scene.has_plates())
     of_mesh -= plate_loads(scene, space, tables);
   if (scene.has_initial_strain())
@@ -51,6 +53,9 @@ DatumValue sum_of_loads(const Discretisation<2> &discretisation)
   for_each_node(space, tables,
                 [&](const types::global_dof_index dof, const unsigned int component,
                     const Point<2> &) { result[component] += of_mesh[dof]; });
+  for (unsigned int c = 0; c < 2; ++c)
+    if (std::abs(result[c]) <= round_off)
+      result[c] = 0;
   return result;
 }
 
