@@ -4,6 +4,8 @@
 
 #include <hpvi/space/upper_energy.h>
 
+#include <numeric>
+
 namespace
 {
 using namespace space;
@@ -112,6 +114,20 @@ struct BoundCase
   double widest; ///< of the bound, relative to |u_N|_a
 };
 
+/** Its parts make the total and the bound of the energy. */
+void expect_theorem(const ErrorBound &bound, const bool is_linear)
+{
+  const auto sum = [](const std::vector<double> &all)
+  { return std::accumulate(all.begin(), all.end(), 0.); };
+  const double b = std::sqrt(sum(bound.moved)), gap = (bound.slip * bound.slip - b * b) / 2,
+               A = std::sqrt(sum(bound.squares) - bound.slip * bound.slip);
+  EXPECT_EQ(gap > 0, !is_linear);
+  EXPECT_GT(bound.oscillation, 1e-3 * bound.stress);
+  EXPECT_GE(A, std::hypot(bound.stress, bound.oscillation));
+  EXPECT_NEAR(bound.total, least_root(A, gap, b), 1e-9 * bound.total);
+  EXPECT_NEAR(bound.energy, std::pow(A + b, 2) / 2 + gap, 1e-9 * bound.energy);
+}
+
 /** J of a far finer mesh lies in the interval of each step; the bound is above what J says of the error, and at most twice as much as it says at most. */
 TEST(BoxBound, HoldsOfFinerMeshes)
 {
@@ -139,6 +155,7 @@ TEST(BoxBound, HoldsOfFinerMeshes)
                   ASSERT_TRUE(step.bound) << one.name << ": " << step.no_bound;
                   const ErrorBound &bound = *step.bound;
                   EXPECT_LT(bound.imbalance, 1e-9) << one.name;
+                  expect_theorem(bound, is_linear);
                   EXPECT_LT(step.energies.energy - bound.energy_below, J) << one.name;
                   EXPECT_GT(step.energies.energy + bound.energy_above, J) << one.name;
                   if (is_linear)
