@@ -459,6 +459,14 @@ ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
   return result;
 }
 
+ErrorBound no_solution_for_bound(const std::string &what)
+{
+  ErrorBound result;
+  result.imbalance = std::numeric_limits<double>::quiet_NaN();
+  result.flaw = "a problem that the bound needs is not solved: " + what;
+  return result;
+}
+
 double least_root(const double A, const double gap, const double b)
 {
   const auto root = [&](const double lambda)
@@ -549,9 +557,6 @@ try
 }
 catch (const NumericalFailure &failure)
 {
-  ErrorBound result;
-  result.imbalance = std::numeric_limits<double>::quiet_NaN();
-  result.flaw = std::string("a problem that the bound needs is not solved: ") + failure.what();
-  return result;
+  return no_solution_for_bound(failure.what());
 }
 } // namespace hpvi

@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hpvi
 {
@@ -32,6 +33,19 @@ unsigned int ProblemSize::p_min() const
 unsigned int ProblemSize::p_max() const
 {
   return cells_of_degree.size() - 1;
+}
+
+void BoundOfStep::take(const ErrorBound &computed)
+{
+  missing = std::isfinite(computed.total) ? computed.flaw : "it is not finite";
+  imbalance = computed.imbalance;
+  if (missing.empty() && computed.kind == BoundKind::estimate)
+  {
+    missing = computed.why;
+    estimate = computed;
+  }
+  else if (missing.empty())
+    bound = computed;
 }
 
 template <int dim>

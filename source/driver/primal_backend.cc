@@ -359,16 +359,7 @@ BoundOfStep PrimalBackend<dim>::bound(double)
     begin("bounding the error of " + std::to_string(mesh->n_global_active_cells()) + " elements");
     StageTimer timer(times.bound);
     NewtonMatrix<dim> matrix(*space, *system, given_way.value_or(linear_method(*space)));
-    const ErrorBound bound = box_bound(*space, matrix, u, lambda, system->work(u));
-    result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
-    result.imbalance = bound.imbalance;
-    if (result.missing.empty() && bound.kind == BoundKind::estimate)
-    {
-      result.missing = bound.why;
-      result.estimate = bound;
-    }
-    else if (result.missing.empty())
-      result.bound = bound;
+    result.take(box_bound(*space, matrix, u, lambda, system->work(u)));
   }
   return result;
 }

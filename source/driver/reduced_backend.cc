@@ -473,16 +473,7 @@ BoundOfStep ReducedBackend<dim>::bound(const double hysteresis)
   if (!result.missing.empty())
     return result;
   begin("bounding the error of " + std::to_string(cell_degrees.size()) + " elements");
-  const ErrorBound bound = bound_beside_forces(hysteresis);
-  result.missing = std::isfinite(bound.total) ? bound.flaw : "it is not finite";
-  result.imbalance = bound.imbalance;
-  if (result.missing.empty() && bound.kind == BoundKind::estimate)
-  {
-    result.missing = bound.why;
-    result.estimate = bound;
-  }
-  else if (result.missing.empty())
-    result.bound = bound;
+  result.take(bound_beside_forces(hysteresis));
   return result;
 }
 

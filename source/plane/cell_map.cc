@@ -2,6 +2,8 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/plane/cell_map.h>
 
+#include <deal.II/grid/cell_id.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -50,11 +52,40 @@ Tensor<1, 2> departure(const EdgeBlends &blends, const Point<2> &xi,
   }
   return result;
 }
+
+/** Lagrange's quadratics at 0, 1/2 and 1, or a derivative of them. */
+std::array<double, 3> quadratics(const double x, const unsigned int order)
+{
+  if (order == 0)
+    return {{(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)}};
+  if (order == 1)
+    return {{4 * x - 3, 4 - 8 * x, 4 * x - 1}};
+  return {{4, -8, 4}};
+}
+
+/** What the nodes of a hexahedron of second order add. */
+Tensor<1, 3> departure(const QuadraticDepartures &nodes, const Point<3> &xi,
+                       const std::array<unsigned int, 3> &order)
+{
+  std::array<std::array<double, 3>, 3> of_axis;
+  for (unsigned int d = 0; d < 3; ++d)
+    of_axis[d] = quadratics(xi[d], order[d]);
+  Tensor<1, 3> result;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    result += of_axis[0][k % 3] * of_axis[1][k / 3 % 3] * of_axis[2][k / 9] * nodes[k];
+  return result;
+}
+
+/** In one dimension nothing is curved. */
+Tensor<1, 1> departure(const EdgeBlends &, const Point<1> &, const std::array<unsigned int, 1> &)
+{
+  return {};
+}
 } // namespace
 
 template <int dim>
-CellMap<dim>::CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBlends> blends)
-    : corners(vertices), curved(std::move(blends)), affine(false)
+CellMap<dim>::CellMap(const Vertices &vertices, std::shared_ptr<const Bend> bend)
+    : corners(vertices), curved(std::move(bend)), affine(false)
 {
   Point<dim> centre;
   for (unsigned int d = 0; d < dim; ++d)
@@ -85,7 +116,10 @@ template <int dim>
 const EdgeBlends &CellMap<dim>::blends() const
 {
   Assert(curved, ExcMessage("All edges of the cell are straight."));
-  return *curved;
+  if constexpr (dim == 3)
+    AssertThrow(false, ExcMessage("Cells in space have no blends."));
+  else
+    return *curved;
 }
 
 template <int dim>
@@ -100,9 +134,8 @@ Point<dim> CellMap<dim>::point(const Point<dim> &reference) const
   Point<dim> x;
   for (unsigned int v = 0; v < corners.size(); ++v)
     x += vertex_shape<dim>(v, reference, {}) * corners[v];
-  if constexpr (dim == 2)
-    if (curved)
-      x += departure(*curved, reference, {});
+  if (curved)
+    x += departure(*curved, reference, {});
   return x;
 }
 
@@ -125,15 +158,14 @@ Tensor<2, dim> CellMap<dim>::jacobian(const Point<dim> &reference) const
         for (unsigned int i = 0; i < dim; ++i)
           J[i][j] += weight * (corners[end][i] - corners[v][i]);
       }
-    if constexpr (dim == 2)
-      if (curved)
-      {
-        std::array<unsigned int, dim> order{};
-        order[j] = 1;
-        const Tensor<1, dim> column = departure(*curved, reference, order);
-        for (unsigned int i = 0; i < dim; ++i)
-          J[i][j] += column[i];
-      }
+    if (curved)
+    {
+      std::array<unsigned int, dim> order{};
+      order[j] = 1;
+      const Tensor<1, dim> column = departure(*curved, reference, order);
+      for (unsigned int i = 0; i < dim; ++i)
+        J[i][j] += column[i];
+    }
   }
   return J;
 }
@@ -156,13 +188,12 @@ Tensor<3, dim> CellMap<dim>::hessian(const Point<dim> &reference) const
         for (unsigned int i = 0; i < dim; ++i)
           H[i][j][k] += bend * (corners[v][i] - corners[0][i]);
       }
-      if constexpr (dim == 2)
-        if (curved)
-        {
-          const Tensor<1, dim> column = departure(*curved, reference, order);
-          for (unsigned int i = 0; i < dim; ++i)
-            H[i][j][k] += column[i];
-        }
+      if (curved)
+      {
+        const Tensor<1, dim> column = departure(*curved, reference, order);
+        for (unsigned int i = 0; i < dim; ++i)
+          H[i][j][k] += column[i];
+      }
     }
   return H;
 }
@@ -218,16 +249,17 @@ double CellMap<dim>::face_area(const unsigned int face_no) const
   Point<dim - 1> middle;
   for (unsigned int s = 0; s + 1 < dim; ++s)
     middle[s] = 0.5;
+  bool is_bent = dim == 3 && curved;
   if constexpr (dim == 2)
-    if (curved && (*curved)[face_no])
-    {
-      const QGauss<1> gauss(12);
-      double length = 0;
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-        length +=
-            gauss.weight(q) * face_measure(face_no, point_on_face<dim>(face_no, gauss.point(q)));
-      return length;
-    }
+    is_bent = curved && (*curved)[face_no];
+  if (is_bent)
+  {
+    const QGauss<dim - 1> gauss(12);
+    double area = 0;
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+      area += gauss.weight(q) * face_measure(face_no, point_on_face<dim>(face_no, gauss.point(q)));
+    return area;
+  }
   return face_measure(face_no, point_on_face<dim>(face_no, middle));
 }
 
@@ -256,6 +288,60 @@ double CellMap<dim>::shortest_edge() const
 {
   const auto lengths = edge_lengths<dim>(corners);
   return *std::min_element(lengths.begin(), lengths.end());
+}
+
+namespace
+{
+/** Which part of the reference cell of its coarse cell a cell is the image of, from `origin` on. */
+std::pair<Point<3>, double> part_of_coarse_cell(const Triangulation<3>::cell_iterator &cell)
+{
+  Point<3> origin;
+  double size = 1;
+  for (const std::uint8_t child : cell->id().get_child_indices())
+  {
+    size /= 2;
+    for (unsigned int d = 0; d < 3; ++d)
+      origin[d] += child >> d & 1 ? size : 0.;
+  }
+  return {origin, size};
+}
+} // namespace
+
+CellMap<3> curved_map(const Triangulation<3>::cell_iterator &cell)
+{
+  const auto &manifold = dynamic_cast<const HexahedronManifold &>(
+      cell->get_triangulation().get_manifold(cell->manifold_id()));
+  const CellMap<3> &coarse = manifold.map;
+  if (cell->level() == 0)
+    return coarse;
+  const auto [origin, size] = part_of_coarse_cell(cell);
+  const auto at = [&](const Point<3> &xi) { return coarse.point(origin + size * xi); };
+  CellMap<3>::Vertices vertices;
+  for (const unsigned int v : GeometryInfo<3>::vertex_indices())
+    vertices[v] = at(GeometryInfo<3>::unit_cell_vertex(v));
+  return CellMap<3>(vertices, departures_of(vertices, at));
+}
+
+std::shared_ptr<const QuadraticDepartures>
+departures_of(const CellMap<3>::Vertices &vertices,
+              const std::function<Point<3>(const Point<3> &)> &node)
+{
+  const CellMap<3> straight(vertices);
+  auto result = std::make_shared<QuadraticDepartures>();
+  for (unsigned int k = 0; k < result->size(); ++k)
+    if (const Point<3> xi(k % 3 / 2., k / 3 % 3 / 2., k / 9 / 2.);
+        k % 3 == 1 || k / 3 % 3 == 1 || k / 9 == 1)
+      (*result)[k] = node(xi) - straight.point(xi);
+  return result;
+}
+
+HexahedronManifold::HexahedronManifold(const CellMap<3> &map) : map(map)
+{
+}
+
+std::unique_ptr<Manifold<3>> HexahedronManifold::clone() const
+{
+  return std::make_unique<HexahedronManifold>(map);
 }
 
 template class CellMap<2>;

@@ -873,9 +873,6 @@ try
 }
 catch (const NumericalFailure &failure)
 {
-  ErrorBound result;
-  result.imbalance = std::numeric_limits<double>::quiet_NaN();
-  result.flaw = std::string("a problem that the bound needs is not solved: ") + failure.what();
-  return result;
+  return no_solution_for_bound(failure.what());
 }
 } // namespace hpvi

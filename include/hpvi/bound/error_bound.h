@@ -96,6 +96,9 @@ struct ErrorBound
   std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
 
+/** None: a problem that it needs is not solved, for the reason @p what. */
+ErrorBound no_solution_for_bound(const std::string &what);
+
 /** The least root E over lambda of what bounds the error, for the A, gap and b of ErrorBound. */
 double least_root(double A, double gap, double b);
 

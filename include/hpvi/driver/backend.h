@@ -74,6 +74,9 @@ struct BoundOfStep
   double imbalance = std::numeric_limits<double>::quiet_NaN();
   std::optional<ErrorBound> estimate =
       std::nullopt; ///< of BoundKind::estimate, where there is no bound
+
+  void
+  take(const ErrorBound &computed); ///< sorts it into what it is: a bound, an estimate, or none
 };
 
 /** u_N and the multiplier as numbers that do not depend on how many processes found them. */

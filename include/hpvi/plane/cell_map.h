@@ -9,26 +9,35 @@
 #include <hpvi/plane/curved_edges.h>
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <type_traits>
 
 namespace hpvi
 {
 /**
+ * Of a hexahedron of second order in space: how far its 27 nodes, lexicographic, lie from where the trilinear map of its
+ * vertices has them [length].
+ */
+using QuadraticDepartures = std::array<dealii::Tensor<1, 3>, 27>;
+
+/**
  * The map from the reference cell: d-linear where edges are straight; in the plane the blend of four edges (W. J. Gordon,
- * C. A. Hall, DOI 10.1007/BF01436298) where one is curved.
+ * C. A. Hall, DOI 10.1007/BF01436298) where one is curved; in space triquadratic where the cell of the coarse mesh is so.
  */
 template <int dim>
 class CellMap
 {
 public:
   using Vertices = std::array<dealii::Point<dim>, dealii::GeometryInfo<dim>::vertices_per_cell>;
+  using Bend = std::conditional_t<dim == 3, QuadraticDepartures, EdgeBlends>;
 
-  /** @p blends: of curved edges, in the plane; null: all are straight. */
-  explicit CellMap(const Vertices &vertices, std::shared_ptr<const EdgeBlends> blends = nullptr);
+  /** @p bend: of curved edges and faces; null: all are straight. */
+  explicit CellMap(const Vertices &vertices, std::shared_ptr<const Bend> bend = nullptr);
 
   const Vertices &vertices() const; ///< in deal.II's order
 
-  bool is_curved() const; ///< is any edge?
+  bool is_curved() const; ///< is any edge, in space any face of the cell from which it comes?
 
   /** Of a curved cell in the plane, by face; none of the others. */
   const EdgeBlends &blends() const;
@@ -65,7 +74,7 @@ public:
 
 private:
   Vertices corners;
-  std::shared_ptr<const EdgeBlends> curved;
+  std::shared_ptr<const Bend> curved;
   bool affine;
   dealii::Tensor<2, dim> constant_jacobian; ///< at the centre
 };
@@ -80,10 +89,38 @@ dealii::Point<dim> point_on_face(const unsigned int face_no, const dealii::Point
   return result;
 }
 
+/**
+ * The quadratic through nodes, `node(xi)` at the 27 places xi of {0, 1/2, 1}^3, as departures from the trilinear map of
+ * @p vertices.
+ */
+std::shared_ptr<const QuadraticDepartures>
+departures_of(const CellMap<3>::Vertices &vertices,
+              const std::function<dealii::Point<3>(const dealii::Point<3> &)> &node);
+
+/** Says of a cell of the coarse mesh that it is of second order, and of the cells that come of it; see curved_map(). */
+class HexahedronManifold : public dealii::FlatManifold<3>
+{
+public:
+  explicit HexahedronManifold(const CellMap<3> &map);
+
+  std::unique_ptr<dealii::Manifold<3>> clone() const override;
+
+  const CellMap<3> map; ///< of the cell of the coarse mesh
+};
+
+/**
+ * That of a cell in space whose coarse cell has a HexahedronManifold: children are images of parts of the reference cell under
+ * its polynomial, so that spaces are nested whatever deal.II takes for their vertices.
+ */
+CellMap<3> curved_map(const dealii::Triangulation<3>::cell_iterator &cell);
+
 /** The map of a triangulation's cell. */
 template <int dim, class CellIterator>
 CellMap<dim> map_of(const CellIterator &cell)
 {
+  if constexpr (dim == 3)
+    if (cell->manifold_id() != dealii::numbers::flat_manifold_id)
+      return curved_map(cell);
   typename CellMap<dim>::Vertices vertices;
   for (const unsigned int v : dealii::GeometryInfo<dim>::vertex_indices())
     vertices[v] = cell->vertex(v);

@@ -4,6 +4,8 @@
 
 #include <hpvi/scene/geometry.h>
 
+#include <map>
+
 namespace hpvi
 {
 /**
@@ -26,6 +28,9 @@ struct HexahedralMesh : CoarseMesh
   std::vector<std::array<unsigned int, n_corners>>
       hexahedra; ///< of corners, lexicographic as deal.II's
   std::vector<Face> faces;
+
+  /** Of cells of second order that are not d-linear, by index into #hexahedra: all nodes, lexicographic. */
+  std::map<unsigned int, std::array<dealii::Point<3>, 27>> bent;
 
   Corners<3> corners_of(unsigned int cell) const;
   Side<3>::Piece corners_of(const Face &face) const;
