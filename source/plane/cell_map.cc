@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/base/quadrature_lib.h>
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/grid/cell_id.h>
 
@@ -53,27 +54,11 @@ Tensor<1, 2> departure(const EdgeBlends &blends, const Point<2> &xi,
   return result;
 }
 
-/** Lagrange's quadratics at 0, 1/2 and 1, or a derivative of them. */
-std::array<double, 3> quadratics(const double x, const unsigned int order)
-{
-  if (order == 0)
-    return {{(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)}};
-  if (order == 1)
-    return {{4 * x - 3, 4 - 8 * x, 4 * x - 1}};
-  return {{4, -8, 4}};
-}
-
 /** What the nodes of a hexahedron of second order add. */
 Tensor<1, 3> departure(const QuadraticDepartures &nodes, const Point<3> &xi,
                        const std::array<unsigned int, 3> &order)
 {
-  std::array<std::array<double, 3>, 3> of_axis;
-  for (unsigned int d = 0; d < 3; ++d)
-    of_axis[d] = quadratics(xi[d], order[d]);
-  Tensor<1, 3> result;
-  for (unsigned int k = 0; k < nodes.size(); ++k)
-    result += of_axis[0][k % 3] * of_axis[1][k / 3 % 3] * of_axis[2][k / 9] * nodes[k];
-  return result;
+  return triquadratic(nodes, xi, order);
 }
 
 /** In one dimension nothing is curved. */
@@ -115,11 +100,16 @@ bool CellMap<dim>::is_curved() const
 template <int dim>
 const EdgeBlends &CellMap<dim>::blends() const
 {
-  Assert(curved, ExcMessage("All edges of the cell are straight."));
   if constexpr (dim == 3)
-    AssertThrow(false, ExcMessage("Cells in space have no blends."));
+  {
+    static const EdgeBlends none; // faces bend, not edges by themselves
+    return none;
+  }
   else
+  {
+    Assert(curved, ExcMessage("All edges of the cell are straight."));
     return *curved;
+  }
 }
 
 template <int dim>
@@ -309,13 +299,14 @@ std::pair<Point<3>, double> part_of_coarse_cell(const Triangulation<3>::cell_ite
 
 CellMap<3> curved_map(const Triangulation<3>::cell_iterator &cell)
 {
-  const auto &manifold = dynamic_cast<const HexahedronManifold &>(
-      cell->get_triangulation().get_manifold(cell->manifold_id()));
-  const CellMap<3> &coarse = manifold.map;
+  const CellMap<3> &coarse = dynamic_cast<const HexahedronManifold &>(
+                                cell->get_triangulation().get_manifold(cell->manifold_id()))
+                                .map;
   if (cell->level() == 0)
     return coarse;
-  const auto [origin, size] = part_of_coarse_cell(cell);
-  const auto at = [&](const Point<3> &xi) { return coarse.point(origin + size * xi); };
+  const std::pair<Point<3>, double> part = part_of_coarse_cell(cell);
+  const auto at = [&coarse, &part](const Point<3> &xi)
+  { return coarse.point(part.first + part.second * xi); };
   CellMap<3>::Vertices vertices;
   for (const unsigned int v : GeometryInfo<3>::vertex_indices())
     vertices[v] = at(GeometryInfo<3>::unit_cell_vertex(v));

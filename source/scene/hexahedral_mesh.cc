@@ -30,6 +30,48 @@ Side<3>::Piece HexahedralMesh::corners_of(const Face &face) const
   return result;
 }
 
+namespace
+{
+/** Lagrange's quadratics at 0, 1/2 and 1, or a derivative of them. */
+std::array<double, 3> quadratics(const double x, const unsigned int order)
+{
+  if (order == 0)
+    return {{(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)}};
+  if (order == 1)
+    return {{4 * x - 3, 4 - 8 * x, 4 * x - 1}};
+  return {{4, -8, 4}};
+}
+} // namespace
+
+Tensor<1, 3> triquadratic(const std::array<Tensor<1, 3>, 27> &a, const Point<3> &xi,
+                          const std::array<unsigned int, 3> &order)
+{
+  std::array<std::array<double, 3>, 3> of_axis;
+  for (unsigned int d = 0; d < 3; ++d)
+    of_axis[d] = quadratics(xi[d], order[d]);
+  Tensor<1, 3> result;
+  for (unsigned int k = 0; k < a.size(); ++k)
+    result += of_axis[0][k % 3] * of_axis[1][k / 3 % 3] * of_axis[2][k / 9] * a[k];
+  return result;
+}
+
+std::optional<Point<3>> folded_at(const HexahedronNodes &nodes, const double least)
+{
+  std::array<Tensor<1, 3>, 27> from_first;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    from_first[k] = nodes[k] - nodes[0];
+  for (unsigned int k = 0; k < 125; ++k)
+  {
+    const Point<3> xi(k % 5 / 4., k / 5 % 5 / 4., k / 25 / 4.);
+    const Tensor<1, 3> a = triquadratic(from_first, xi, {{1, 0, 0}}),
+                       b = triquadratic(from_first, xi, {{0, 1, 0}}),
+                       c = triquadratic(from_first, xi, {{0, 0, 1}});
+    if (!(cross_product_3d(a, b) * c > least * a.norm() * b.norm() * c.norm()))
+      return nodes[0] + triquadratic(from_first, xi);
+  }
+  return std::nullopt;
+}
+
 Point<3> centre_of(const Corners<3> &cell)
 {
   Point<3> result;

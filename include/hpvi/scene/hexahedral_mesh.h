@@ -5,11 +5,26 @@
 #include <hpvi/scene/geometry.h>
 
 #include <map>
+#include <optional>
 
 namespace hpvi
 {
+/** Of a hexahedron of second order, at the places {0, 1/2, 1}^3 of the reference cell, x fastest. */
+using HexahedronNodes = std::array<dealii::Point<3>, 27>;
+
+/** `sum_k phi_k(xi) a_k` of Lagrange's triquadratics there, or of their derivatives of this order per direction. */
+dealii::Tensor<1, 3> triquadratic(const std::array<dealii::Tensor<1, 3>, 27> &a,
+                                  const dealii::Point<3> &xi,
+                                  const std::array<unsigned int, 3> &order = {});
+
 /**
- * Hexahedra with plane faces and names along the boundary, in the place of the quadrilaterals of a CoarseMesh: a body in space
+ * A point at which the determinant of the triquadratic map, over the product of the lengths of its columns, is at most @p least; null: there is none
+ * among the vertices, middles and quarters of edges, faces and cell.
+ */
+std::optional<dealii::Point<3>> folded_at(const HexahedronNodes &nodes, double least);
+
+/**
+ * Hexahedra and names along the boundary, in the place of the quadrilaterals of a CoarseMesh: a body in space
  * that is no box. It has the names of that, #boundaries and, of its volumes, #surfaces, and a cell for each of its own with the
  * number of its volume; the vertices and edges of that it has not.
  */
@@ -29,8 +44,8 @@ struct HexahedralMesh : CoarseMesh
       hexahedra; ///< of corners, lexicographic as deal.II's
   std::vector<Face> faces;
 
-  /** Of cells of second order that are not d-linear, by index into #hexahedra: all nodes, lexicographic. */
-  std::map<unsigned int, std::array<dealii::Point<3>, 27>> bent;
+  /** Of cells of which faces are not plane, by index into #hexahedra. */
+  std::map<unsigned int, HexahedronNodes> bent;
 
   Corners<3> corners_of(unsigned int cell) const;
   Side<3>::Piece corners_of(const Face &face) const;

@@ -43,8 +43,8 @@ struct GmshFile
     std::int64_t group = 0;  ///< tag of its physical group; 0: none
     std::int64_t entity = 0; ///< tag of the curve, surface or volume of the drawing; 0: unknown
     std::size_t number = 0;  ///< that the file gives it; 0: none
-    std::array<unsigned int, 9> nodes =
-        {}; ///< indices into nodes: corners, middles of edges, the centre
+    /** Indices into nodes: corners, middles of edges, in space of faces, the centre. */
+    std::array<unsigned int, 27> nodes = {};
   };
 
   std::vector<Node> nodes;
