@@ -34,20 +34,6 @@ double area(const BlendedCell &cell)
   return result;
 }
 
-/** Of a cell with plane faces, which are bases of pyramids. */
-double volume_of(const Corners<3> &cell)
-{
-  double result = 0;
-  for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
-  {
-    Side<3>::Piece face;
-    for (unsigned int v = 0; v < face.size(); ++v)
-      face[v] = cell[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-    result += area_of(face) * std::abs(normal_of(face) * (centre_of(cell) - face[0])) / 3;
-  }
-  return result;
-}
-
 std::string plural(const unsigned int n, const std::string &one, const std::string &many)
 {
   return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -148,9 +134,9 @@ std::vector<std::string> mesh_words(const HexahedralMesh &mesh, const std::strin
                                     ", " + plural(mesh.corners.size(), "vertex", "vertices")};
   std::vector<Total> boundaries(mesh.boundaries.size()), volumes(mesh.surfaces.size());
   for (const HexahedralMesh::Face &face : mesh.faces)
-    boundaries[face.boundary].add(area_of(mesh.corners_of(face)));
+    boundaries[face.boundary].add(area_of(mesh, face));
   for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
-    volumes[mesh.cells[c].surface].add(volume_of(mesh.corners_of(c)));
+    volumes[mesh.cells[c].surface].add(volume_of(mesh, c));
   for (unsigned int b = 0; b < boundaries.size(); ++b)
     lines.push_back(boundary_name(mesh.boundaries[b]) + ": " +
                     plural(boundaries[b].n, "face", "faces") + ", area " +

@@ -287,7 +287,8 @@ std::pair<Point<3>, double> part_of_coarse_cell(const Triangulation<3>::cell_ite
 {
   Point<3> origin;
   double size = 1;
-  for (const std::uint8_t child : cell->id().get_child_indices())
+  const CellId id = cell->id();
+  for (const std::uint8_t child : id.get_child_indices())
   {
     size /= 2;
     for (unsigned int d = 0; d < 3; ++d)
@@ -300,8 +301,8 @@ std::pair<Point<3>, double> part_of_coarse_cell(const Triangulation<3>::cell_ite
 CellMap<3> curved_map(const Triangulation<3>::cell_iterator &cell)
 {
   const CellMap<3> &coarse = dynamic_cast<const HexahedronManifold &>(
-                                cell->get_triangulation().get_manifold(cell->manifold_id()))
-                                .map;
+                                 cell->get_triangulation().get_manifold(cell->manifold_id()))
+                                 .map;
   if (cell->level() == 0)
     return coarse;
   const std::pair<Point<3>, double> part = part_of_coarse_cell(cell);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <hpvi/base/inverse_map.h>
 #include <hpvi/base/text.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/curved_edges.h>
@@ -106,8 +107,13 @@ bool touches(const typename Triangulation<dim>::cell_iterator &cell, const Point
           return true;
     }
   if constexpr (dim == 3)
-    if (const CellMap<3> map = map_of<3>(cell); !map.is_affine())
+  {
+    const CellMap<3> map = map_of<3>(cell);
+    if (map.is_curved())
+      return inverse_of(map, point, 1e-8).has_value();
+    if (!map.is_affine())
       return contains(map.vertices(), point, 1e-8 * map.shortest_edge());
+  }
   return cell->bounding_box().point_inside(point, 1e-10) &&
          GeometryInfo<dim>::distance_to_unit_cell(
              cell->real_to_unit_cell_affine_approximation(point)) < 1e-8;
@@ -187,6 +193,36 @@ void make_cells(const CoarseMesh &mesh, Triangulation<2> &triangulation)
   attach_curves(mesh, triangulation);
 }
 
+/** Where curved_map() has them: deal.II puts new vertices halfway between old ones. */
+void place_vertices(Triangulation<3> &triangulation)
+{
+  for (const auto &cell : triangulation.cell_iterators())
+    if (cell->level() > 0 && cell->manifold_id() != numbers::flat_manifold_id)
+    {
+      const CellMap<3> map = curved_map(cell);
+      for (const unsigned int v : cell->vertex_indices())
+        cell->vertex(v) = map.vertices()[v];
+    }
+}
+
+void bend_cells(const HexahedralMesh &mesh, Triangulation<3> &triangulation)
+{
+  types::manifold_id id = 0;
+  for (const auto &cell : triangulation.cell_iterators_on_level(0))
+    if (const auto bent = mesh.bent.find(cell->index()); bent != mesh.bent.end())
+    {
+      const auto corners = mesh.corners_of(cell->index());
+      const auto node = [&, &nodes = bent->second](const Point<3> &xi)
+      { return nodes[std::lround(2 * xi[0] + 6 * xi[1] + 18 * xi[2])]; };
+      triangulation.set_manifold(
+          id, HexahedronManifold(CellMap<3>(corners, departures_of(corners, node))));
+      cell->set_manifold_id(id++);
+    }
+  if (id > 0)
+    triangulation.signals.post_refinement.connect([&triangulation]()
+                                                  { place_vertices(triangulation); });
+}
+
 /** Likewise: the reader has put corners in the order that deal.II wants. */
 void make_cells(const HexahedralMesh &mesh, Triangulation<3> &triangulation)
 {
@@ -204,6 +240,7 @@ void make_cells(const HexahedralMesh &mesh, Triangulation<3> &triangulation)
     boundary.boundary_quads.back().boundary_id = face.boundary;
   }
   triangulation.create_triangulation(mesh.corners, cells, boundary);
+  bend_cells(mesh, triangulation);
 }
 } // namespace
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/inverse_map.h>
 #include <hpvi/base/processes.h>
 #include <hpvi/base/tolerances.h>
+#include <hpvi/plane/face_axes.h>
 #include <hpvi/results/field.h>
 #include <hpvi/results/values_at.h>
-#include <hpvi/scene/contact_axes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/mapping_q1.h>
@@ -62,7 +63,7 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
     result.tangents = {{-cross_product_2d(result.normal)}};
   else
   {
-    const ContactAxes<dim> axes = contact_axes(result.normal);
+    const ContactAxes<dim> axes = axes_of_face(map, face_no, reference);
     result.normal = axes.normal;
     result.tangents = axes.tangents;
   }
@@ -135,43 +136,12 @@ const std::vector<FieldFace<dim>> &Field<dim>::faces() const
   return contact_faces;
 }
 
-namespace
-{
-/** By Newton's method, which leaves where @p x is far. */
-std::optional<Point<2>> reference_in_curved_cell(const CellMap<2> &map, const Point<2> &x,
-                                                 const double hair)
-{
-  const double size = map.longest_edge();
-  if (x.distance(map.point({0.5, 0.5})) > 2 * size)
-    return std::nullopt;
-  Point<2> reference(0.5, 0.5);
-  for (unsigned int step = 0; step < 30; ++step)
-  {
-    const Tensor<1, 2> rest = x - map.point(reference);
-    if (rest.norm() <= 1e-13 * size)
-      break;
-    const Tensor<2, 2> J = map.jacobian(reference);
-    if (!(std::abs(determinant(J)) > 1e-12 * size * size))
-      return std::nullopt;
-    reference += invert(J) * rest;
-    if (reference.norm() > 10)
-      return std::nullopt;
-  }
-  if (x.distance(map.point(reference)) > hair * size ||
-      !GeometryInfo<2>::is_inside_unit_cell(reference, hair))
-    return std::nullopt;
-  return GeometryInfo<2>::project_to_unit_cell(reference);
-}
-
-} // namespace
-
 template <int dim>
 std::optional<Point<dim>> reference_of(const typename DoFHandler<dim>::active_cell_iterator &cell,
                                        const Point<dim> &x)
 {
-  if constexpr (dim == 2)
-    if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved())
-      return reference_in_curved_cell(map, x, same_on_edge);
+  if (const CellMap<dim> map = map_of<dim>(cell); map.is_curved())
+    return inverse_of(map, x, same_on_edge);
   if (!cell->bounding_box().point_inside(x, same_on_edge))
     return std::nullopt;
   try

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/inverse_map.h>
 #include <hpvi/scene/hexahedral_mesh.h>
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,23 +58,6 @@ Tensor<1, 3> triquadratic(const std::array<Tensor<1, 3>, 27> &a, const Point<3> 
   return result;
 }
 
-std::optional<Point<3>> folded_at(const HexahedronNodes &nodes, const double least)
-{
-  std::array<Tensor<1, 3>, 27> from_first;
-  for (unsigned int k = 0; k < nodes.size(); ++k)
-    from_first[k] = nodes[k] - nodes[0];
-  for (unsigned int k = 0; k < 125; ++k)
-  {
-    const Point<3> xi(k % 5 / 4., k / 5 % 5 / 4., k / 25 / 4.);
-    const Tensor<1, 3> a = triquadratic(from_first, xi, {{1, 0, 0}}),
-                       b = triquadratic(from_first, xi, {{0, 1, 0}}),
-                       c = triquadratic(from_first, xi, {{0, 0, 1}});
-    if (!(cross_product_3d(a, b) * c > least * a.norm() * b.norm() * c.norm()))
-      return nodes[0] + triquadratic(from_first, xi);
-  }
-  return std::nullopt;
-}
-
 Point<3> centre_of(const Corners<3> &cell)
 {
   Point<3> result;
@@ -107,6 +93,156 @@ double area_of(const Side<3>::Piece &piece)
   return area_vector(piece).norm();
 }
 
+namespace
+{
+/** The nodes of a face, x fastest along it; those of a cell of which faces are plane lie on them. */
+std::array<Point<3>, 9> nodes_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
+{
+  const HexahedronNodes &nodes = mesh.bent.at(face.cell);
+  const auto &corners = mesh.hexahedra[face.cell];
+  std::array<unsigned int, 3> place{}; // of corners 0, 1 and 2 of the face among the 27 nodes
+  for (unsigned int k = 0; k < 3; ++k)
+  {
+    const unsigned int v =
+        std::find(corners.begin(), corners.end(), face.vertices[k]) - corners.begin();
+    place[k] = (v & 1) * 2 + (v >> 1 & 1) * 6 + (v >> 2) * 18;
+  }
+  std::array<Point<3>, 9> result;
+  for (int k = 0; k < 9; ++k)
+    result[k] = nodes[int(place[0]) + (k % 3) * (int(place[1]) - int(place[0])) / 2 +
+                      k / 3 * (int(place[2]) - int(place[0])) / 2];
+  return result;
+}
+
+/** Four, around its middle, of a face of a cell that is bent. */
+std::vector<Side<3>::Piece> pieces_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
+{
+  if (mesh.bent.count(face.cell) == 0)
+    return {mesh.corners_of(face)};
+  const auto nodes = nodes_of(mesh, face);
+  std::vector<Side<3>::Piece> result;
+  for (const unsigned int k : {0, 1, 3, 4})
+    result.push_back({{nodes[k], nodes[k + 1], nodes[k + 3], nodes[k + 4]}});
+  return result;
+}
+
+class QuadraticMap
+{
+public:
+  explicit QuadraticMap(const HexahedronNodes &nodes) : first(nodes[0])
+  {
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      from_first[k] = nodes[k] - first;
+  }
+
+  Point<3> point(const Point<3> &xi) const
+  {
+    return first + triquadratic(from_first, xi);
+  }
+
+  /** Its columns are the images of the axes. */
+  Tensor<2, 3> jacobian(const Point<3> &xi) const
+  {
+    Tensor<2, 3> result;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      std::array<unsigned int, 3> order{};
+      order[d] = 1;
+      const Tensor<1, 3> column = triquadratic(from_first, xi, order);
+      for (unsigned int c = 0; c < 3; ++c)
+        result[c][d] = column[c];
+    }
+    return result;
+  }
+
+  double longest_edge() const ///< from above: the diameter
+  {
+    double result = 0;
+    for (const Tensor<1, 3> &node : from_first)
+      result = std::max(result, 2 * node.norm());
+    return result;
+  }
+
+private:
+  const Point<3> first;
+  std::array<Tensor<1, 3>, 27> from_first; ///< far from the origin differences keep their digits
+};
+} // namespace
+
+std::optional<Point<3>> folded_at(const HexahedronNodes &nodes, const double least)
+{
+  const QuadraticMap map(nodes);
+  for (unsigned int k = 0; k < 125; ++k)
+  {
+    const Point<3> xi(k % 5 / 4., k / 5 % 5 / 4., k / 25 / 4.);
+    const Tensor<2, 3> J = transpose(map.jacobian(xi));
+    if (!(determinant(J) > least * J[0].norm() * J[1].norm() * J[2].norm()))
+      return map.point(xi);
+  }
+  return std::nullopt;
+}
+
+double area_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
+{
+  if (mesh.bent.count(face.cell) == 0)
+    return area_of(mesh.corners_of(face));
+  HexahedronNodes flat; // the face, as any layer of a cell
+  const auto nodes = nodes_of(mesh, face);
+  for (unsigned int k = 0; k < 27; ++k)
+    flat[k] = nodes[k % 9];
+  const QuadraticMap map(flat);
+  const QGauss<2> rule(8);
+  double result = 0;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const Point<3> xi(rule.point(q)[0], rule.point(q)[1], 0.);
+    const Tensor<2, 3> J = transpose(map.jacobian(xi));
+    result += rule.weight(q) * cross_product_3d(J[0], J[1]).norm();
+  }
+  return result;
+}
+
+bool is_plane(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
+{
+  const std::vector<Side<3>::Piece> pieces = pieces_of(mesh, face);
+  const Tensor<1, 3> normal = normal_of(pieces.front());
+  const double size = pieces.front()[0].distance(pieces.back()[3]);
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [&](const Side<3>::Piece &piece)
+                     {
+                       return std::all_of(
+                           piece.begin(), piece.end(),
+                           [&](const Point<3> &x)
+                           { return std::abs((x - pieces.front()[0]) * normal) <= 1e-8 * size; });
+                     });
+}
+
+double volume_of(const HexahedralMesh &mesh, const unsigned int cell)
+{
+  const auto bent = mesh.bent.find(cell);
+  if (bent == mesh.bent.end())
+    return volume_of(mesh.corners_of(cell));
+  const QuadraticMap map(bent->second);
+  const QGauss<3> rule(3); // det J has the degree 5 along each axis
+  double result = 0;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+    result += rule.weight(q) * determinant(map.jacobian(rule.point(q)));
+  return result;
+}
+
+double volume_of(const Corners<3> &cell)
+{
+  double result = 0;
+  for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
+  {
+    Side<3>::Piece face;
+    for (unsigned int v = 0; v < face.size(); ++v)
+      face[v] = cell[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+    result += area_of(face) * std::abs(normal_of(face) * (centre_of(cell) - face[0])) / 3;
+  }
+  return result;
+}
+
 double distance(const Side<3>::Piece &piece, const Point<3> &x)
 {
   const Tensor<1, 3> n = normal_of(piece);
@@ -126,7 +262,8 @@ std::vector<Side<3>> sides_of_mesh(const HexahedralMesh &mesh)
 {
   std::vector<Side<3>> sides(mesh.boundaries.size());
   for (const HexahedralMesh::Face &face : mesh.faces)
-    sides[face.boundary].pieces.push_back(mesh.corners_of(face));
+    for (const Side<3>::Piece &piece : pieces_of(mesh, face))
+      sides[face.boundary].pieces.push_back(piece);
   for (Side<3> &side : sides)
   {
     const Tensor<1, 3> n = normal_of(side.pieces.front());
@@ -153,10 +290,18 @@ bool contains(const Corners<3> &cell, const Point<3> &x, const double hair)
   return true;
 }
 
+bool contains(const HexahedronNodes &cell, const Point<3> &x, const double hair)
+{
+  const QuadraticMap map(cell);
+  return inverse_of(map, x, hair / map.longest_edge()).has_value();
+}
+
 bool contains(const HexahedralMesh &mesh, const Point<3> &x, const double hair)
 {
   for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
-    if (contains(mesh.corners_of(c), x, hair))
+    if (const auto bent = mesh.bent.find(c); bent == mesh.bent.end()
+                                                 ? contains(mesh.corners_of(c), x, hair)
+                                                 : contains(bent->second, x, hair))
       return true;
   return false;
 }
@@ -169,10 +314,14 @@ std::vector<Point<3>> sample(const HexahedralMesh &mesh)
   for (std::size_t c = 0; c < n_cells; c += 1 + n_cells / 4000)
   {
     cell.corners = mesh.corners_of(c);
+    const auto bent = mesh.bent.find(c);
     for (unsigned int k = 0; k < (n + 1) * (n + 1) * (n + 1); ++k)
-      points.push_back(
-          cell.point(Point<3>(double(k % (n + 1)) / n, double(k / (n + 1) % (n + 1)) / n,
-                              double(k / (n + 1) / (n + 1)) / n)));
+    {
+      const Point<3> xi(double(k % (n + 1)) / n, double(k / (n + 1) % (n + 1)) / n,
+                        double(k / (n + 1) / (n + 1)) / n);
+      points.push_back(bent == mesh.bent.end() ? cell.point(xi)
+                                               : QuadraticMap(bent->second).point(xi));
+    }
   }
   return points;
 }

@@ -29,8 +29,21 @@ FullMatrix<double> basis_of_moments(const PrimalSpace<dim> &space,
     const unsigned int n = tables.n_contact_dofs();
     const auto number = [&](const auto &shapes, const unsigned int i, const unsigned int c)
     { return tables.numbers[shapes[face.face][i]][c]; };
-    FullMatrix<double> rim_to_inner(n, contact_dofs.W.n());
+    FullMatrix<double> rim_to_inner(contact_dofs.M.m(), contact_dofs.W.n());
     contact_dofs.M_inverse.mmult(rim_to_inner, contact_dofs.W);
+    if (face.is_curved())
+    {
+      const unsigned int n_rim = tables.rim[face.face].size();
+      for (unsigned int r = 0; r < dim * n; ++r)
+      {
+        const unsigned int row = number(tables.inner, r % n, r / n);
+        for (unsigned int k = 0; k < dim * n; ++k)
+          T(row, number(tables.inner, k % n, k / n)) = contact_dofs.M_inverse(r, k);
+        for (unsigned int j = 0; j < dim * n_rim; ++j)
+          T(row, number(tables.rim, j % n_rim, j / n_rim)) = -rim_to_inner(r, j);
+      }
+      return;
+    }
     for (const unsigned int c : face.components())
       for (unsigned int r = 0; r < n; ++r)
       {

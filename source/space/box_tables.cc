@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/plane/face_axes.h>
 #include <hpvi/space/box_tables.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -173,6 +174,48 @@ template <int dim>
 FaceContactDofs BoxTables<dim>::moments_of(const CellMap<dim> &map, const unsigned int face) const
 {
   return make_contact_dofs(face, [&](const Point<dim> &x) { return map.face_measure(face, x); });
+}
+
+/** By p+2 points a direction, as gaps are taken. */
+template <int dim>
+FaceContactDofs BoxTables<dim>::curved_moments_of(const CellMap<dim> &map,
+                                                  const unsigned int face) const
+{
+  const unsigned int n = inner[face].size(), n_rim = rim[face].size();
+  const BoxTable<dim> table = tabulate_face(scalar(), QGauss<dim - 1>(degree + 2), face);
+  FaceContactDofs result;
+  result.areas.resize(n);
+  result.M.reinit(dim * n, dim * n);
+  result.W.reinit(dim * n, dim * n_rim);
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    const ContactAxes<dim> axes = axes_of_face(map, face, table.points[q]);
+    const double ds = table.weights[q] * map.face_measure(face, table.points[q]);
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      const double weight = ds * psi(k, face, table.points[q]);
+      result.areas[k] += weight;
+      for (unsigned int own = 0; own < dim; ++own)
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          const double part = weight * (own == dim - 1 ? axes.normal : axes.tangents[own])[c];
+          for (unsigned int j = 0; j < n; ++j)
+            result.M(own * n + k, c * n + j) += part * table.values(q, inner[face][j]);
+          for (unsigned int j = 0; j < n_rim; ++j)
+            result.W(own * n + k, c * n_rim + j) += part * table.values(q, rim[face][j]);
+        }
+    }
+  }
+  for (unsigned int row = 0; row < dim * n; ++row)
+  {
+    for (unsigned int j = 0; j < result.M.n(); ++j)
+      result.M(row, j) /= result.areas[row % n];
+    for (unsigned int j = 0; j < result.W.n(); ++j)
+      result.W(row, j) /= result.areas[row % n];
+  }
+  result.M_inverse.reinit(dim * n, dim * n);
+  result.M_inverse.invert(result.M);
+  return result;
 }
 
 template <int dim>

@@ -2,7 +2,6 @@
 #include <hpvi/space/cell_operator.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/matrix_free/fe_evaluation.h>
 #include <deal.II/matrix_free/matrix_free.h>
 
@@ -30,13 +29,14 @@ class ElasticOperator : public CellOperator<Number>
 public:
   using Vector = typename CellOperator<Number>::Vector;
 
-  ElasticOperator(const DoFHandler<3> &dof_handler, const AffineConstraints<Number> &constraints,
+  ElasticOperator(const Mapping<3> &mapping, const DoFHandler<3> &dof_handler,
+                  const AffineConstraints<Number> &constraints,
                   const std::vector<IsotropicStiffness> &stiffness)
   {
     typename Cells::AdditionalData settings;
     settings.tasks_parallel_scheme = Cells::AdditionalData::none;
     settings.mapping_update_flags = update_gradients | update_JxW_values;
-    cells.reinit(MappingQ1<3>(), dof_handler, constraints, QGauss<1>(degree + 1), settings);
+    cells.reinit(mapping, dof_handler, constraints, QGauss<1>(degree + 1), settings);
     const bool is_uniform = stiffness.size() == 1;
     volume.resize(is_uniform ? 1 : cells.n_cell_batches());
     shear.resize(volume.size());
@@ -107,26 +107,30 @@ private:
 
 template <typename Number>
 std::unique_ptr<CellOperator<Number>>
-make_cell_operator(const DoFHandler<3> &dof_handler, const AffineConstraints<Number> &constraints,
+make_cell_operator(const Mapping<3> &mapping, const DoFHandler<3> &dof_handler,
+                   const AffineConstraints<Number> &constraints,
                    const std::vector<IsotropicStiffness> &stiffness)
 {
   switch (dof_handler.get_fe().degree)
   {
   case 2:
-    return std::make_unique<ElasticOperator<2, Number>>(dof_handler, constraints, stiffness);
+    return std::make_unique<ElasticOperator<2, Number>>(mapping, dof_handler, constraints,
+                                                        stiffness);
   case 3:
-    return std::make_unique<ElasticOperator<3, Number>>(dof_handler, constraints, stiffness);
+    return std::make_unique<ElasticOperator<3, Number>>(mapping, dof_handler, constraints,
+                                                        stiffness);
   case 4:
-    return std::make_unique<ElasticOperator<4, Number>>(dof_handler, constraints, stiffness);
+    return std::make_unique<ElasticOperator<4, Number>>(mapping, dof_handler, constraints,
+                                                        stiffness);
   default:
     return nullptr;
   }
 }
 
 template std::unique_ptr<CellOperator<double>>
-make_cell_operator(const DoFHandler<3> &, const AffineConstraints<double> &,
+make_cell_operator(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<double> &,
                    const std::vector<IsotropicStiffness> &);
 template std::unique_ptr<CellOperator<float>>
-make_cell_operator(const DoFHandler<3> &, const AffineConstraints<float> &,
+make_cell_operator(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<float> &,
                    const std::vector<IsotropicStiffness> &);
 } // namespace hpvi

@@ -67,6 +67,15 @@ Tensor<1, dim> ContactDofFace<dim>::direction(const unsigned int component) cons
   return result;
 }
 
+template <int dim>
+Tensor<1, dim> ContactDofFace<dim>::direction(const unsigned int component,
+                                              const unsigned int k) const
+{
+  if (!is_curved())
+    return direction(component);
+  return component == dim - 1 ? turning[k].normal : turning[k].tangents[component];
+}
+
 template struct ContactDof<2>;
 template struct ContactDof<3>;
 template struct ContactDofFace<2>;

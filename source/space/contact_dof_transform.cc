@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/space/contact_dof_transform.h>
 
+#include <algorithm>
 #include <map>
 
 namespace hpvi
@@ -31,8 +32,8 @@ ContactDofTransform<Number>::ContactDofTransform(const PrimalSpace<3> &space, co
   const auto add_matrices = [this](const FaceContactDofs &contact_dofs)
   {
     matrices.emplace_back();
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int k = 0; k < contact_dofs.M.m(); ++k)
+      for (unsigned int j = 0; j < contact_dofs.M.n(); ++j)
       {
         matrices.back().M.push_back(contact_dofs.M(k, j));
         matrices.back().M_inverse.push_back(contact_dofs.M_inverse(k, j));
@@ -51,12 +52,11 @@ template <typename Number>
 void ContactDofTransform<Number>::add(const PrimalSpace<3> &space, const Vector &pattern,
                                       const ContactDofFace<3> &face, const unsigned int matrix)
 {
-  const BoxTables<3> &tables = space.tables;
   const FaceContactDofs &contact_dofs = space.contact_dofs_on(face);
-  FullMatrix<double> C(n, contact_dofs.W.n());
+  FullMatrix<double> C(contact_dofs.M.m(), contact_dofs.W.n());
   contact_dofs.M_inverse.mmult(C, contact_dofs.W);
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  face.cell->get_dof_indices(dofs);
+  if (face.is_curved())
+    return add_row(space, pattern, face, face.components(), C, matrix);
   if (face.axes.is_rotated())
   {
     turns.push_back({static_cast<unsigned int>(inner.size()), {}});
@@ -66,28 +66,46 @@ void ContactDofTransform<Number>::add(const PrimalSpace<3> &space, const Vector 
   }
   for (const unsigned int axis : face.components())
   {
-    std::map<unsigned int, std::vector<double>> columns;
-    for (unsigned int j = 0; j < C.n(); ++j)
-      resolve(space, pattern, dofs[tables.numbers[tables.rim[face.face][j]][axis]],
-              [&](const unsigned int local, const double weight)
-              {
-                std::vector<double> &column = columns[local];
-                column.resize(n);
-                for (unsigned int k = 0; k < n; ++k)
-                  column[k] -= weight * C(k, j);
-              });
-    rows.push_back({static_cast<unsigned int>(inner.size()), static_cast<unsigned int>(rim.size()),
-                    static_cast<unsigned int>(columns.size()), matrix});
-    for (const unsigned int shape : tables.inner[face.face])
-      inner.push_back(
-          pattern.get_partitioner()->global_to_local(dofs[tables.numbers[shape][axis]]));
-    for (const auto &[local, column] : columns)
-    {
-      rim.push_back(local);
-      to_inner.insert(to_inner.end(), column.begin(), column.end());
-    }
+    add_row(space, pattern, face, {axis}, C, matrix);
     if (values)
       add_opposite(space, &face - space.faces.data(), axis, contact_dofs.M_inverse);
+  }
+}
+
+template <typename Number>
+void ContactDofTransform<Number>::add_row(const PrimalSpace<3> &space, const Vector &pattern,
+                                          const ContactDofFace<3> &face,
+                                          const std::vector<unsigned int> &components,
+                                          const FullMatrix<double> &C, const unsigned int matrix)
+{
+  const BoxTables<3> &tables = space.tables;
+  const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  face.cell->get_dof_indices(dofs);
+  std::map<unsigned int, std::vector<double>> columns;
+  for (unsigned int j = 0; j < C.n(); ++j)
+    resolve(
+        space, pattern,
+        dofs[tables.numbers[rim_shapes[j % rim_shapes.size()]][components[j / rim_shapes.size()]]],
+        [&](const unsigned int local, const double weight)
+        {
+          std::vector<double> &column = columns[local];
+          column.resize(C.m());
+          for (unsigned int k = 0; k < C.m(); ++k)
+            column[k] -= weight * C(k, j);
+        });
+  rows.push_back({static_cast<unsigned int>(C.m()), static_cast<unsigned int>(inner.size()),
+                  static_cast<unsigned int>(rim.size()), static_cast<unsigned int>(columns.size()),
+                  matrix, to_inner.size()});
+  largest = std::max<unsigned int>(largest, C.m());
+  for (const unsigned int component : components)
+    for (const unsigned int shape : inner_shapes)
+      inner.push_back(
+          pattern.get_partitioner()->global_to_local(dofs[tables.numbers[shape][component]]));
+  for (const auto &[local, column] : columns)
+  {
+    rim.push_back(local);
+    to_inner.insert(to_inner.end(), column.begin(), column.end());
   }
 }
 
@@ -143,9 +161,10 @@ void ContactDofTransform<Number>::transform(Vector &v) const
     values->take(v.begin(), exchanged);
   if (!inverse)
     turn(v, true);
-  std::vector<Number> old(n), rest(n);
+  std::vector<Number> old(largest), rest(largest);
   for (const Row &row : rows)
   {
+    const unsigned int n = row.n;
     for (unsigned int k = 0; k < n; ++k)
     {
       old[k] = v.local_element(inner[row.first_inner + k]);
@@ -153,7 +172,7 @@ void ContactDofTransform<Number>::transform(Vector &v) const
     }
     const std::vector<Number> &M = matrices[row.matrix].M,
                               &M_inverse = matrices[row.matrix].M_inverse;
-    const Number *column = to_inner.data() + std::size_t(row.first_rim) * n;
+    const Number *column = to_inner.data() + row.first_entry;
     for (unsigned int j = 0; j < row.n_rim; ++j, column += n)
     {
       const Number value = v.local_element(rim[row.first_rim + j]);
@@ -187,9 +206,10 @@ void ContactDofTransform<Number>::transform_transposed(Vector &r) const
     turn(r, true);
   if (values)
     exchanged.assign(values->size(), 0);
-  std::vector<Number> old(n), on_rim(n);
+  std::vector<Number> old(largest), on_rim(largest);
   for (const Row &row : rows)
   {
+    const unsigned int n = row.n;
     for (unsigned int k = 0; k < n; ++k)
       old[k] = r.local_element(inner[row.first_inner + k]);
     const std::vector<Number> &M = matrices[row.matrix].M,
@@ -202,7 +222,7 @@ void ContactDofTransform<Number>::transform_transposed(Vector &r) const
       r.local_element(inner[row.first_inner + k]) = sum;
       on_rim[k] = inverse ? -sum : old[k];
     }
-    const Number *column = to_inner.data() + std::size_t(row.first_rim) * n;
+    const Number *column = to_inner.data() + row.first_entry;
     for (unsigned int j = 0; j < row.n_rim; ++j, column += n)
     {
       Number sum = 0;

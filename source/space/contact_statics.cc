@@ -284,7 +284,7 @@ std::vector<ContactSpot> ContactStatics::spots_of(const ContactDofFace<3> &face)
   for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
   {
     const ContactDof<3> &contact_dof = space.contact[face.first() + k];
-    result.push_back({contact_dof.centroid, face.axes.normal,
+    result.push_back({contact_dof.centroid, face.axes_at(k).normal,
                       face.has_friction() ? contact_dof.limit : FrictionLimit(), contact_dof.area,
                       face.has_pressure(), face.has_pressure() && !boundary.is_unilateral(),
                       bodies_at(face)});
@@ -297,10 +297,15 @@ std::vector<ContactSpot> ContactStatics::ends_of(const ContactDofFace<3> &face) 
 {
   std::vector<ContactSpot> result;
   const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
+  const CellMap<3> map = map_of<3>(face.cell);
   for (unsigned int v = 0; v < 4 && face.has_pressure(); ++v)
   {
-    const Point<3> x = face.cell->face(face.face)->vertex(v);
-    result.push_back({x, face.axes.normal,
+    const unsigned int corner = GeometryInfo<3>::face_to_cell_vertices(face.face, v);
+    const Point<3> x = map.vertices()[corner];
+    result.push_back({x,
+                      face.is_curved()
+                          ? map.normal(face.face, GeometryInfo<3>::unit_cell_vertex(corner))
+                          : face.axes.normal,
                       boundary.friction ? boundary.friction.at(x) : FrictionLimit(), 0., true,
                       !boundary.is_unilateral(), bodies_at(face)});
   }

@@ -25,15 +25,6 @@ std::vector<ShapeTable<dim>> tables_of_faces(const unsigned int degree, const un
   }
   return result;
 }
-
-/** `k_n n n' + k_t (I - n n')` of two shape functions. */
-template <int dim>
-Tensor<2, dim> entry(const SpringsOfFace<dim> &springs, const unsigned int i, const unsigned int j)
-{
-  const double k_n = springs.along_normal(i, j), k_t = springs.along_face(i, j);
-  return k_t * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
-         (k_n - k_t) * outer_product(springs.normal, springs.normal);
-}
 } // namespace
 
 template <int dim>
@@ -42,7 +33,7 @@ std::vector<Tensor<1, dim>> SpringsOfFace<dim>::forces(const CellField<dim> &u) 
   std::vector<Tensor<1, dim>> result(shapes.size());
   for (unsigned int i = 0; i < shapes.size(); ++i)
     for (unsigned int j = 0; j < shapes.size(); ++j)
-      result[i] += entry(*this, i, j) * u[shapes[j]];
+      result[i] += K[i * shapes.size() + j] * u[shapes[j]];
   return result;
 }
 
@@ -90,21 +81,20 @@ std::vector<SpringsOfFace<dim>> ElasticFoundation<dim>::below(const Cell &cell) 
         springs.shapes.push_back(i);
     const ShapeTable<dim> &table = (own.varies() ? varying : constant)[face];
     const unsigned int n = springs.shapes.size();
-    springs.normal = map.normal(face, table.points[0]);
-    springs.along_normal.reinit(n, n);
-    springs.along_face.reinit(n, n);
+    springs.K.resize(n * n);
     for (unsigned int q = 0; q < table.points.size(); ++q)
     {
       const auto [k_n, k_t] = own.at(map.point(table.points[q]));
       const double ds = table.weights[q] * map.face_measure(face, table.points[q]);
+      const Tensor<1, dim> normal = map.normal(face, table.points[q]);
+      const Tensor<2, dim> k = k_t * Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+                               (k_n - k_t) * outer_product(normal, normal);
+      springs.sums[0] += ds * k_n;
+      springs.sums[1] += ds * k_t;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-        {
-          const double product =
-              ds * table.values(q, springs.shapes[i]) * table.values(q, springs.shapes[j]);
-          springs.along_normal(i, j) += k_n * product;
-          springs.along_face(i, j) += k_t * product;
-        }
+          springs.K[i * n + j] +=
+              ds * table.values(q, springs.shapes[i]) * table.values(q, springs.shapes[j]) * k;
     }
     result.push_back(std::move(springs));
   }
@@ -118,7 +108,7 @@ void ElasticFoundation<dim>::add_to(FullMatrix<double> &K, const Cell &cell) con
     for (unsigned int i = 0; i < springs.shapes.size(); ++i)
       for (unsigned int j = 0; j < springs.shapes.size(); ++j)
       {
-        const Tensor<2, dim> k = entry(springs, i, j);
+        const Tensor<2, dim> &k = springs.K[i * springs.shapes.size() + j];
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
             K(tables.numbers[springs.shapes[i]][c], tables.numbers[springs.shapes[j]][d]) +=
@@ -132,21 +122,8 @@ void ElasticFoundation<dim>::add_to_diagonal(std::vector<double> &diagonal, cons
   for (const SpringsOfFace<dim> &springs : below(cell))
     for (unsigned int i = 0; i < springs.shapes.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        diagonal[tables.numbers[springs.shapes[i]][c]] += entry(springs, i, i)[c][c];
-}
-
-/** Shape functions add up to one. */
-template <int dim>
-Tensor<1, 2> ElasticFoundation<dim>::stiffness(const SpringsOfFace<dim> &springs)
-{
-  Tensor<1, 2> sum;
-  for (unsigned int i = 0; i < springs.shapes.size(); ++i)
-    for (unsigned int j = 0; j < springs.shapes.size(); ++j)
-    {
-      sum[0] += springs.along_normal(i, j);
-      sum[1] += springs.along_face(i, j);
-    }
-  return sum;
+        diagonal[tables.numbers[springs.shapes[i]][c]] +=
+            springs.K[i * springs.shapes.size() + i][c][c];
 }
 
 template struct SpringsOfFace<2>;

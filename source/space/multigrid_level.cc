@@ -2,6 +2,9 @@
 #include <hpvi/space/cell_basis.h>
 #include <hpvi/space/multigrid_level.h>
 
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/fe/mapping_q_cache.h>
+
 #include <algorithm>
 #include <map>
 #include <type_traits>
@@ -28,6 +31,28 @@ std::vector<IsotropicStiffness> stiffness_of_materials(const Scene<3> &scene)
   }
   return result;
 }
+
+/** Of degree 2, which is exact, where there are curved cells. */
+std::unique_ptr<const Mapping<3>> mapping_of(const Triangulation<3> &mesh)
+{
+  bool is_curved = false;
+  for (const auto &cell : mesh.cell_iterators_on_level(0))
+    is_curved = is_curved || cell->manifold_id() != numbers::flat_manifold_id;
+  if (!is_curved)
+    return std::make_unique<MappingQ1<3>>();
+  const FE_Q<3> nodes(2);
+  auto result = std::make_unique<MappingQCache<3>>(2);
+  result->initialize(mesh,
+                     [&](const Triangulation<3>::cell_iterator &cell)
+                     {
+                       const CellMap<3> map = map_of<3>(cell);
+                       std::vector<Point<3>> points;
+                       for (const Point<3> &node : nodes.get_unit_support_points())
+                         points.push_back(map.point(node));
+                       return points;
+                     });
+  return result;
+}
 } // namespace
 
 template <typename Number>
@@ -35,7 +60,8 @@ MultigridLevel<Number>::MultigridLevel(const PrimalSpace<3> &space)
     : space(space), states(space.contact.size())
 {
   constraints.copy_from(space.constraints);
-  cells = make_cell_operator<Number>(space.dof_handler, constraints,
+  const auto mapping = mapping_of(space.dof_handler.get_triangulation());
+  cells = make_cell_operator<Number>(*mapping, space.dof_handler, constraints,
                                      stiffness_of_materials(space.scene));
   reinit(scratch);
   contact_dofs = std::make_unique<ContactDofTransform<Number>>(space, scratch);

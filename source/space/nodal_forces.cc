@@ -28,10 +28,28 @@ Tensor<1, dim> force_at(const PrimalSpace<dim> &space, const ContactDofFace<dim>
   for (unsigned int s = 0; face.has_friction() && s < dim - 1; ++s)
     result += space.contact[face.friction + k].area *
               space.contact[face.friction + k].bound_by(lambda) * lambda[face.friction + k][s] *
-              face.axes.tangents[s];
+              face.axes_at(k).tangents[s];
   if (face.has_pressure())
-    result +=
-        space.contact[face.pressure + k].weight * lambda[face.pressure + k][0] * face.axes.normal;
+    result += space.contact[face.pressure + k].weight * lambda[face.pressure + k][0] *
+              face.axes_at(k).normal;
+  return result;
+}
+
+/** On the nodes of a curved face by `m = M u_inner + W u_rim`: one component after the other, of the matrix that is asked for. */
+template <int dim>
+Vector<double> forces_on_curved(const PrimalSpace<dim> &space, const ContactDofFace<dim> &face,
+                                const FullMatrix<double> &moments,
+                                const std::vector<ContactVector<dim>> &lambda)
+{
+  const unsigned int n = space.tables.n_contact_dofs();
+  Vector<double> of_contact(dim * n), result(moments.n());
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    const Tensor<1, dim> force = force_at(space, face, k, lambda);
+    for (unsigned int own = 0; own < dim; ++own)
+      of_contact[own * n + k] = force * face.direction(own, k);
+  }
+  moments.Tvmult(result, of_contact);
   return result;
 }
 
@@ -101,10 +119,14 @@ void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<di
     const types::boundary_id boundary = face.cell->face(face.face)->boundary_id();
     const auto add = [&](const FullMatrix<double> &moments, const std::vector<unsigned int> &shapes)
     {
+      const Vector<double> on_curved =
+          face.is_curved() ? forces_on_curved(space, face, moments, lambda) : Vector<double>();
       for (unsigned int j = 0; j < shapes.size(); ++j)
       {
         Tensor<1, dim> force;
-        for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
+        for (unsigned int c = 0; c < dim && face.is_curved(); ++c)
+          force[c] = -on_curved[c * shapes.size() + j];
+        for (unsigned int k = 0; k < tables.n_contact_dofs() && !face.is_curved(); ++k)
           force -= moments(k, j) * force_at(space, face, k, lambda);
         for (const unsigned int axis : face.components())
           sum(dofs[tables.numbers[shapes[j]][axis]]) += force[axis];

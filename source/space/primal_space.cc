@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/tolerances.h>
+#include <hpvi/plane/face_axes.h>
 #include <hpvi/scene/slave_side.h>
 #include <hpvi/scene/space_motion.h>
 #include <hpvi/space/consistent_constraints.h>
@@ -137,7 +138,9 @@ void PrimalSpace<dim>::find_opposite_faces()
 template <int dim>
 ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned int number) const
 {
-  ContactDofFace<dim> face{cell, number, {}};
+  ContactDofFace<dim> face;
+  face.cell = cell;
+  face.face = number;
   if (!scene.geometry.has_mesh())
   {
     Tensor<1, dim> normal;
@@ -146,6 +149,14 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
     return face;
   }
   const CellMap<dim> map = map_of<dim>(cell);
+  if (map.is_curved())
+  {
+    face.own = std::make_shared<const FaceContactDofs>(tables.curved_moments_of(map, number));
+    for (const Point<dim> &x : tables.moment_points[number].points)
+      face.turning.push_back(axes_of_face(map, number, x));
+    face.axes = face.turning[face.turning.size() / 2];
+    return face;
+  }
   const auto corner = [&](const unsigned int v)
   {
     return GeometryInfo<dim>::unit_cell_vertex(GeometryInfo<dim>::face_to_cell_vertices(number, v));
@@ -259,6 +270,18 @@ DistributedVector PrimalSpace<dim>::ghosted_vector() const
   return DistributedVector(owned, relevant, communicator());
 }
 
+/** All components at nodes of a face, one component after the other. */
+template <int dim>
+Vector<double> PrimalSpace<dim>::components_at(const std::vector<types::global_dof_index> &dofs,
+                                               const std::vector<unsigned int> &shapes,
+                                               const DistributedVector &u) const
+{
+  Vector<double> result(dim * shapes.size());
+  for (unsigned int i = 0; i < result.size(); ++i)
+    result[i] = u(dof(dofs, shapes[i % shapes.size()], i / shapes.size()));
+  return result;
+}
+
 template <int dim>
 DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) const
 {
@@ -277,6 +300,16 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
     face.cell->get_dof_indices(dofs);
     const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
+    if (face.is_curved())
+    {
+      Vector<double> of_inner = components_at(dofs, inner_shapes, u), all(of_inner.size());
+      contact_dofs.W.vmult(all, components_at(dofs, rim_shapes, u));
+      of_inner -= all;
+      contact_dofs.M_inverse.vmult(all, of_inner);
+      for (unsigned int i = 0; i < all.size(); ++i)
+        complete(dof(dofs, inner_shapes[i % n], i / n)) = all[i];
+      continue;
+    }
     for (const unsigned int c : face.components())
     {
       for (unsigned int k = 0; k < n; ++k)
@@ -333,6 +366,16 @@ DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) 
     const CellField<dim> field = this->field(face.cell, u);
     const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     face.cell->get_dof_indices(dofs);
+    if (face.is_curved())
+    {
+      const auto &inner_shapes = tables.inner[face.face];
+      Vector<double> m(dim * inner_shapes.size());
+      contact_dofs.M.vmult(m, components_at(dofs, inner_shapes, u));
+      contact_dofs.W.vmult_add(m, components_at(dofs, tables.rim[face.face], u));
+      for (unsigned int i = 0; i < m.size(); ++i)
+        v(dof(dofs, inner_shapes[i % inner_shapes.size()], i / inner_shapes.size())) = m[i];
+      continue;
+    }
     for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
     {
       Tensor<1, dim> m = -moment_opposite(number, k, far);

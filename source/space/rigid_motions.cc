@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/plane/cell_map.h>
 #include <hpvi/space/rigid_motions.h>
 
 namespace hpvi
@@ -19,6 +20,46 @@ Tensor<1, dim> rigid_motion(const unsigned int motion, const Tensor<1, dim> &arm
   }
   return result;
 }
+
+namespace
+{
+/** Contact dofs of a curved face, whose directions turn between its Gauss points. */
+template <int dim>
+void set_on_curved(const PrimalSpace<dim> &space, const ContactDofFace<dim> &face,
+                   std::vector<double> &motions)
+{
+  const BoxTables<dim> &tables = space.tables;
+  const unsigned int n = space.owned.n_elements();
+  const Point<dim> centre = space.scene.geometry.centre();
+  const double length = space.scene.geometry.radius();
+  const CellMap<dim> map = map_of<dim>(face.cell);
+  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  face.cell->get_dof_indices(dofs);
+  const auto at_nodes = [&](const std::vector<unsigned int> &shapes, const unsigned int m)
+  {
+    Vector<double> result(dim * shapes.size());
+    for (unsigned int j = 0; j < shapes.size(); ++j)
+    {
+      const Point<dim> node = tables.fe.unit_support_point(tables.numbers[shapes[j]][0]);
+      const Tensor<1, dim> u = rigid_motion<dim>(m, (map.point(node) - centre) / length);
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c * shapes.size() + j] = u[c];
+    }
+    return result;
+  };
+  const std::vector<unsigned int> &inner = tables.inner[face.face];
+  for (unsigned int m = 0; m < n_motions<dim>; ++m)
+  {
+    Vector<double> moments(dim * inner.size());
+    face.own->M.vmult(moments, at_nodes(inner, m));
+    face.own->W.vmult_add(moments, at_nodes(tables.rim[face.face], m));
+    for (unsigned int i = 0; i < moments.size(); ++i)
+      motions[m * n + space.owned.index_within_set(
+                          dofs[tables.numbers[inner[i % inner.size()]][i / inner.size()]])] =
+          moments[i];
+  }
+}
+} // namespace
 
 template <int dim>
 std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
@@ -48,6 +89,11 @@ std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
     face.cell->get_dof_indices(dofs);
     const bool is_jump =
         space.condition(face.cell, face.face).pair.has_value(); // all bodies move alike
+    if (face.is_curved())
+    {
+      set_on_curved(space, face, result);
+      continue;
+    }
     for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
     {
       const Tensor<1, dim> arm = space.contact[face.first() + k].centroid - centre;

@@ -255,6 +255,12 @@ void VertexSolver::find_contact()
       for (unsigned int k = 0; k < faces.back().means.size(); ++k)
       {
         double &mean = faces.back().means[k][j] = 0;
+        if (face.is_curved()) // near enough for what only precedes others
+        {
+          mean = GeometryInfo<3>::d_linear_shape_function(
+              space.tables.moment_points[face.face].points[k], corner);
+          continue;
+        }
         const auto add =
             [&](const FullMatrix<double> &matrix, const std::vector<unsigned int> &shapes)
         {
@@ -285,8 +291,8 @@ void VertexSolver::add(const ContactFace &face, const unsigned int k,
   Tensor<2, 3> of_axes;
   for (unsigned int s = 0; s < components.size(); ++s)
     for (unsigned int t = 0; t < components.size(); ++t)
-      of_axes += change[s][t] * outer_product(face.face->direction(components[s]),
-                                              face.face->direction(components[t]));
+      of_axes += change[s][t] * outer_product(face.face->direction(components[s], k),
+                                              face.face->direction(components[t], k));
   std::vector<Dof> dofs;
   std::vector<std::pair<unsigned int, unsigned int>> places; // of them: vertex and component
   for (unsigned int i = 0; i < face.vertices.size(); ++i)

@@ -63,11 +63,24 @@ dealii::Tensor<1, 3> normal_of(const Side<3>::Piece &piece);
 /** Likewise its area. */
 double area_of(const Side<3>::Piece &piece);
 
+double area_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face);
+
+/** Of a cell with plane faces, which are bases of pyramids. */
+double volume_of(const Corners<3> &cell);
+
+double volume_of(const HexahedralMesh &mesh, unsigned int cell);
+
+/** Has it one normal, to 1e-8? */
+bool is_plane(const HexahedralMesh &mesh, const HexahedralMesh::Face &face);
+
 /** By boundary, face by face. */
 std::vector<Side<3>> sides_of_mesh(const HexahedralMesh &mesh);
 
 /** Is @p x in @p cell, which is convex, or not more than @p hair outside of it? */
 bool contains(const Corners<3> &cell, const dealii::Point<3> &x, double hair);
+
+/** Likewise in a cell of second order. */
+bool contains(const HexahedronNodes &cell, const dealii::Point<3> &x, double hair);
 
 /** Likewise in one of the cells. */
 bool contains(const HexahedralMesh &mesh, const dealii::Point<3> &x, double hair);

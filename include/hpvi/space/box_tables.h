@@ -41,7 +41,10 @@ double product(const CellField<dim> &a, const CellField<dim> &b)
   return sum;
 }
 
-/** The change from the inner nodes of a contact face to its contact dofs, `m = M u_inner + W u_rim`. */
+/**
+ * The change from the inner nodes of a contact face to its contact dofs, `m = M u_inner + W u_rim`: of each component by itself; of a
+ * curved face, whose directions turn, of all components at once, rows by direction and Gauss point, columns by axis and node.
+ */
 struct FaceContactDofs
 {
   dealii::FullMatrix<double> M, M_inverse, W;
@@ -94,6 +97,9 @@ public:
 
   /** Of a face whose measure is not constant: `m_k = int psi_k u ds / int psi_k ds`. */
   FaceContactDofs moments_of(const CellMap<dim> &map, unsigned int face) const;
+
+  /** Of a face of a curved cell: `m_kd = int psi_k u.e_d ds / int psi_k ds`, e_d the directions of axes_of_face(). */
+  FaceContactDofs curved_moments_of(const CellMap<dim> &map, unsigned int face) const;
 
   /** T of `u = T v` on a box: @p components[dim face + component] says where v has contact dofs for inner nodes. */
   dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &components) const;

@@ -3,6 +3,7 @@
 #define hpvi_cell_operator_h
 
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -47,12 +48,12 @@ inline bool has_cell_operator(const unsigned int degree)
 }
 
 /**
- * Of FE_Q of this degree on boxes; @p stiffness by material id. @p dof_handler must outlive it. Collective. Null where the
- * degree is none of has_cell_operator().
+ * Of FE_Q of this degree; @p stiffness by material id; @p mapping of cells. @p dof_handler must outlive it. Collective. Null where
+ * the degree is none of has_cell_operator().
  */
 template <typename Number>
 std::unique_ptr<CellOperator<Number>>
-make_cell_operator(const dealii::DoFHandler<3> &dof_handler,
+make_cell_operator(const dealii::Mapping<3> &mapping, const dealii::DoFHandler<3> &dof_handler,
                    const dealii::AffineConstraints<Number> &constraints,
                    const std::vector<IsotropicStiffness> &stiffness);
 } // namespace hpvi

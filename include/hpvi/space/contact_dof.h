@@ -95,7 +95,7 @@ struct ContactDof
 /**
  * A face with contact dofs, those of its Gauss points one after the other from #friction and #pressure on. The unknowns at an inner
  * node are components along the axes of coordinates; where the normal is along none of these they are, all of them contact dofs,
- * those along the tangents and the normal.
+ * those along the tangents and the normal. Of a curved face they turn: FaceContactDofs changes all components at once.
  */
 template <int dim>
 struct ContactDofFace
@@ -104,7 +104,8 @@ struct ContactDofFace
   unsigned int face;
   ContactAxes<dim> axes;
   std::shared_ptr<const FaceContactDofs> own =
-      nullptr; ///< null: those of the unit face, its measure is constant
+      nullptr;                           ///< null: those of the unit face, its measure is constant
+  std::vector<ContactAxes<dim>> turning; ///< of a curved face, at its Gauss points; none: #axes
   unsigned int friction = dealii::numbers::invalid_unsigned_int; ///< which means that there is none
   unsigned int pressure = dealii::numbers::invalid_unsigned_int; ///< likewise
 
@@ -127,7 +128,21 @@ struct ContactDofFace
 
   unsigned int tangential(unsigned int s) const; ///< the component of a tangent
   unsigned int normal() const;                   ///< the component of the normal
-  dealii::Tensor<1, dim> direction(unsigned int component) const;
+  dealii::Tensor<1, dim>
+  direction(unsigned int component) const; ///< the same all along a flat face
+
+  bool is_curved() const
+  {
+    return !turning.empty();
+  }
+
+  const ContactAxes<dim> &axes_at(unsigned int k) const ///< at a Gauss point
+  {
+    return is_curved() ? turning[k] : axes;
+  }
+
+  /** Likewise that of an own component. */
+  dealii::Tensor<1, dim> direction(unsigned int component, unsigned int k) const;
 
   /** Of the outer normal along direction(normal()). */
   double sign() const

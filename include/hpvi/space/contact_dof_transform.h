@@ -39,9 +39,11 @@ public:
                       const std::function<void(unsigned int, double)> &take);
 
 private:
-  struct Row ///< one component of a face
+  struct Row ///< one component of a face; of a curved one all
   {
+    unsigned int n;                                     ///< contact dofs
     unsigned int first_inner, first_rim, n_rim, matrix; ///< the last in #matrices
+    std::size_t first_entry;                            ///< in #to_inner
     unsigned int first_far = 0, n_far = 0;
   };
   struct Turn ///< of a face whose three components begin there in #inner
@@ -56,6 +58,10 @@ private:
 
   void add(const PrimalSpace<3> &space, const Vector &pattern, const ContactDofFace<3> &face,
            unsigned int matrix);
+  /** The row of @p components of a face, whose `-M^-1 W` is @p C with columns by component and rim node. */
+  void add_row(const PrimalSpace<3> &space, const Vector &pattern, const ContactDofFace<3> &face,
+               const std::vector<unsigned int> &components, const dealii::FullMatrix<double> &C,
+               unsigned int matrix);
   void add_opposite(const PrimalSpace<3> &space, unsigned int face, unsigned int axis,
                     const dealii::FullMatrix<double> &M_inverse);
   void turn(Vector &v, bool to_axes) const;
@@ -65,14 +71,15 @@ private:
   void transform_transposed(Vector &r) const;
 
   unsigned int n = 0;             ///< contact dofs of a component
+  unsigned int largest = 0;       ///< Row::n
   std::vector<Matrices> matrices; ///< the first of the unit face
   std::vector<Row> rows;
   std::vector<Turn> turns;
   std::vector<unsigned int> inner, rim; ///< local elements
-  std::vector<Number> to_inner;         ///< -M^-1 W with constraints resolved, n for each of #rim
-  const FarValues *values = nullptr;    ///< opposite to faces; null: no bodies touch
-  std::vector<unsigned int> far;        ///< places there
-  std::vector<Number> far_to_inner;     ///< M^-1 R likewise, n for each of #far
+  std::vector<Number> to_inner;      ///< -M^-1 W with constraints resolved, Row::n for each of #rim
+  const FarValues *values = nullptr; ///< opposite to faces; null: no bodies touch
+  std::vector<unsigned int> far;     ///< places there
+  std::vector<Number> far_to_inner;  ///< M^-1 R likewise, n for each of #far
   mutable std::vector<Number> exchanged;
 };
 } // namespace hpvi

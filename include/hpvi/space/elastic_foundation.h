@@ -12,15 +12,15 @@
 
 namespace hpvi
 {
-/** Springs on one face of a cell, `int k_n v_n w_n + k_t v_t w_t` of its shape functions. The face is plane. */
+/** Springs on one face of a cell, `int k_n v_n w_n + k_t v_t w_t` of its shape functions. */
 template <int dim>
 struct SpringsOfFace
 {
   dealii::types::boundary_id boundary;
   std::vector<unsigned int> shapes; ///< that do not vanish on the face
-  dealii::Tensor<1, dim> normal;
-  dealii::FullMatrix<double> along_normal,
-      along_face; ///< int k_n phi_i phi_j and int k_t phi_i phi_j of two of them
+  /** `int (k_n n n' + k_t (I - n n')) phi_i phi_j`, row by row. */
+  std::vector<dealii::Tensor<2, dim>> K;
+  dealii::Tensor<1, 2> sums; ///< `int k_n` and `int k_t` over the face [stress length^(dim-2)]
 
   /** What the body does to the foundation where it moves by @p u, node by node of #shapes: `K u` [stress length^(dim-1)]. */
   std::vector<dealii::Tensor<1, dim>> forces(const CellField<dim> &u) const;
@@ -43,9 +43,6 @@ public:
   /** To the stiffness of @p cell, of nodal values. */
   void add_to(dealii::FullMatrix<double> &K, const Cell &cell) const;
   void add_to_diagonal(std::vector<double> &diagonal, const Cell &cell) const;
-
-  /** `int k_n` and `int k_t` over the face [stress length^(dim-2)]. */
-  static dealii::Tensor<1, 2> stiffness(const SpringsOfFace<dim> &springs);
 
 private:
   const Spring<dim> &spring(const Cell &cell, unsigned int face) const;

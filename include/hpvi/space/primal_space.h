@@ -143,6 +143,9 @@ private:
              const std::function<Value(const dealii::Point<dim> &)> &f) const;
   double gap_at(const ContactDofFace<dim> &face, const dealii::Point<dim> &x) const;
   ContactDofFace<dim> face_of(const Cell &cell, unsigned int number) const;
+  dealii::Vector<double> components_at(const std::vector<dealii::types::global_dof_index> &dofs,
+                                       const std::vector<unsigned int> &shapes,
+                                       const DistributedVector &u) const;
   dealii::types::global_dof_index dof(const std::vector<dealii::types::global_dof_index> &dofs,
                                       unsigned int shape, unsigned int component) const;
 

@@ -155,6 +155,29 @@ bool asks_for_displacements(const BoundaryCondition<dim> &boundary)
 }
 } // namespace
 
+/** The normal displacement is held, and bodies touch each other, on plane faces. */
+void check_curved_faces(const Scene<3> &scene)
+{
+  const HexahedralMesh &mesh = *hexahedra_of(scene.geometry);
+  for (const BoundaryCondition<3> &boundary : scene.boundaries)
+    for (const HexahedralMesh::Face &face : mesh.faces)
+    {
+      if (face.boundary != boundary.side || mesh.bent.count(face.cell) == 0)
+        continue;
+      const std::string at = to_string(mesh.corners[face.vertices[0]]);
+      if (boundary.holds_normal() && !is_plane(mesh, face))
+        reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Contact",
+               "holds u_n = 0 on the face at " + at +
+                   ", which is curved, and space offers that of plane faces; give it a "
+                   "Displacement, or set Contact = unilateral");
+      if (boundary.pair)
+        reject(scene, section_of(boundary), "Contact",
+               "is between bodies on the face at " + at +
+                   " of a curved cell, and space offers that of plane cells; give cells there "
+                   "first order and plane faces");
+    }
+}
+
 /** Bilateral contact, which tells its forces node by node, holds one component: that of an axis. */
 void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
 {
@@ -175,7 +198,11 @@ void check_supports(const Scene<dim> &scene)
   const std::vector<Side<dim>> sides = sides_of(scene);
   const double tolerance = support_tolerance(scene);
   if constexpr (dim == 3)
+  {
+    if (scene.geometry.has_mesh())
+      check_curved_faces(scene);
     check_held_faces(scene, sides);
+  }
   for (unsigned int a = 0; a < sides.size(); ++a)
     for (unsigned int b = a + 1; b < sides.size(); ++b)
     {

@@ -12,12 +12,13 @@ using namespace dealii;
 ElementKind element_kind(const std::int64_t type)
 {
   static const std::map<std::int64_t, ElementKind> kinds = {
-      {1, {"lines", 1, 2, 2}},          {2, {"triangles", 2, 3, 3}},
-      {3, {"quadrilaterals", 2, 4, 4}}, {4, {"tetrahedra", 3, 4, 4}},
-      {5, {"hexahedra", 3, 8, 8}},      {6, {"prisms", 3, 6, 6}},
-      {7, {"pyramids", 3, 0, 5}},       {8, {"lines", 1, 3, 2}},
-      {9, {"triangles", 2, 6, 3}},      {10, {"quadrilaterals", 2, 9, 4}},
-      {15, {"points", 0, 1, 1}},        {16, {"quadrilaterals", 2, 8, 4}}};
+      {1, {"lines", 1, 2, 2}},           {2, {"triangles", 2, 3, 3}},
+      {3, {"quadrilaterals", 2, 4, 4}},  {4, {"tetrahedra", 3, 4, 4}},
+      {5, {"hexahedra", 3, 8, 8}},       {6, {"prisms", 3, 6, 6}},
+      {7, {"pyramids", 3, 0, 5}},        {8, {"lines", 1, 3, 2}},
+      {9, {"triangles", 2, 6, 3}},       {10, {"quadrilaterals", 2, 9, 4}},
+      {12, {"hexahedra", 3, 27, 8}},     {15, {"points", 0, 1, 1}},
+      {16, {"quadrilaterals", 2, 8, 4}}, {17, {"hexahedra", 3, 20, 8}}};
   const auto found = kinds.find(type);
   return found == kinds.end() ? ElementKind{nullptr, 0, 0, 0} : found->second;
 }

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -20,7 +22,36 @@ using namespace dealii;
 
 namespace
 {
-constexpr std::int64_t hexahedron = 5, quadrilateral = 3;
+bool is_hexahedron(const GmshFile::Element &element)
+{
+  const ElementKind kind = element_kind(element.type);
+  return kind.dim == 3 && kind.n_corners == 8;
+}
+
+bool is_quadrilateral(const GmshFile::Element &element)
+{
+  const ElementKind kind = element_kind(element.type);
+  return kind.dim == 2 && kind.n_corners == 4;
+}
+
+/** Neighbours are to have the same nodes between them. */
+void check_orders(const GmshFile &file, const MeshComplaint &complain)
+{
+  std::map<unsigned int, const GmshFile::Element *> kinds; // by nodes beside corners
+  for (const GmshFile::Element &element : file.elements)
+    if (const ElementKind kind = element_kind(element.type); kind.dim == 3 && kind.n_nodes > 0)
+      kinds[kind.n_nodes - kind.n_corners] = &element;
+  if (kinds.size() < 2)
+    return;
+  const GmshFile::Element &one = *kinds.begin()->second, &other = *kinds.rbegin()->second;
+  const auto words = [](const GmshFile::Element &element)
+  {
+    const ElementKind kind = element_kind(element.type);
+    return std::string(kind.name) + " of " + std::to_string(kind.n_nodes) + " nodes";
+  };
+  complain.of(one.number, "the mesh has " + words(one) + " beside " + words(other) +
+                              "; mesh all of it by elements of one order");
+}
 
 /** Elements that a body in space cannot have: how many of which kind, and what to do. */
 void check_hexahedra(const GmshFile &file, const MeshComplaint &complain)
@@ -28,8 +59,8 @@ void check_hexahedra(const GmshFile &file, const MeshComplaint &complain)
   const auto is_unfit = [](const GmshFile::Element &element)
   {
     const unsigned int dim = element_kind(element.type).dim;
-    return dim == 3 ? element.type != hexahedron
-                    : dim != 1 && (dim != 2 || element.group != 0) && element.type != quadrilateral;
+    return dim == 3 ? !is_hexahedron(element)
+                    : dim != 1 && (dim != 2 || element.group != 0) && !is_quadrilateral(element);
   };
   const auto found = std::find_if(file.elements.begin(), file.elements.end(), is_unfit);
   if (found == file.elements.end())
@@ -63,11 +94,11 @@ public:
       return std::move(mesh);
     check_places();
     orient_cells();
-    check_planes();
     const CellFaces faces(mesh, numbers_of_cells, complain);
     faces.check_connection();
     take_faces(faces);
     order_corners();
+    bend_cells();
     return std::move(mesh);
   }
 
@@ -80,7 +111,7 @@ private:
   {
     std::vector<std::int64_t> tags;
     for (const GmshFile::Element &element : file.elements)
-      if (element.type == hexahedron)
+      if (is_hexahedron(element))
       {
         if (element.group == 0)
           complain.of(element.number,
@@ -94,9 +125,9 @@ private:
     const GroupNumbers numbers(file, 3, tags, complain);
     mesh.surfaces = numbers.names();
     for (const GmshFile::Element &element : file.elements)
-      if (element.type == hexahedron && !is_wanted(numbers.number(element.group)))
+      if (is_hexahedron(element) && !is_wanted(numbers.number(element.group)))
         leave_out(element);
-      else if (element.type == hexahedron)
+      else if (is_hexahedron(element))
       {
         mesh.hexahedra.emplace_back();
         auto &corners = mesh.hexahedra.back();
@@ -109,6 +140,8 @@ private:
         mesh.cells.emplace_back();
         mesh.cells.back().surface = numbers.number(element.group);
         numbers_of_cells.push_back(element.number);
+        read_corners.push_back(corners);
+        read_nodes.push_back(lexicographic(element));
       }
   }
 
@@ -202,7 +235,7 @@ private:
     return cross_product_3d(edges[0], edges[1]) * edges[2];
   }
 
-  /** Inside out ones are turned; of plane faces a cell is convex that is so at its corners. */
+  /** Inside out ones are turned; of plane faces a cell is convex that is so at its corners, others are looked at once they are bent. */
   void orient_cells()
   {
     for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
@@ -228,23 +261,120 @@ private:
     }
   }
 
-  void check_planes() const
+  /** The nodes of Gmsh's order at the places {0, 1/2, 1}^3, x fastest; those that the element lacks by its others. */
+  HexahedronNodes lexicographic(const GmshFile::Element &element) const
+  {
+    // Middles of edges, then of faces, then the centre: as the sum of twice the places of corners.
+    static constexpr std::array<unsigned int, 27> from{{0,  8,  1,  9,  20, 11, 3,  13, 2,
+                                                        10, 21, 12, 22, 26, 23, 15, 24, 14,
+                                                        4,  16, 5,  17, 25, 18, 7,  19, 6}};
+    const unsigned int n_nodes = element_kind(element.type).n_nodes;
+    HexahedronNodes result;
+    std::array<bool, 27> is_known;
+    for (unsigned int k = 0; k < 27; ++k)
+      if ((is_known[k] = from[k] < n_nodes))
+        result[k] = file.nodes[element.nodes[from[k]]].at;
+    complete(result, is_known);
+    return result;
+  }
+
+  /** Middles of edges halfway between corners; of faces and of the cell by serendipity, which is linear where edges are. */
+  static void complete(HexahedronNodes &nodes, const std::array<bool, 27> &is_known)
+  {
+    static constexpr std::array<unsigned int, 3> step{{1, 3, 9}};
+    for (unsigned int n_middle = 1; n_middle <= 3; ++n_middle)
+      for (unsigned int k = 0; k < 27; ++k)
+      {
+        std::vector<unsigned int> axes; // in which it lies halfway
+        for (unsigned int d = 0; d < 3; ++d)
+          if (k / step[d] % 3 == 1)
+            axes.push_back(d);
+        if (axes.size() != n_middle || is_known[k])
+          continue;
+        // Around it lie corners and, of more than one axis, middles of edges.
+        Tensor<1, 3> corners, edges;
+        unsigned int n_edges = 0;
+        for (unsigned int number = 0; number < std::pow(3, n_middle); ++number)
+        {
+          unsigned int other = k, n_halves = 0;
+          for (unsigned int a = 0, rest = number; a < n_middle; ++a, rest /= 3)
+          {
+            other += (rest % 3) * step[axes[a]] - step[axes[a]];
+            n_halves += rest % 3 == 1;
+          }
+          if (n_halves == 0)
+            corners += nodes[other];
+          else if (n_halves == 1 && n_middle > 1)
+          {
+            edges += nodes[other];
+            ++n_edges;
+          }
+        }
+        const double share = n_middle == 1 ? 0.5 : -0.25;
+        nodes[k] = Point<3>(share * corners +
+                            (n_edges > 0 ? (n_middle == 2 ? 0.5 : 0.25) * edges : Tensor<1, 3>()));
+      }
+  }
+
+  /** Where a corner of a cell, as it is now, was as it was read: of eight in {0, 1}^3. */
+  unsigned int place_as_read(const unsigned int cell, const unsigned int corner) const
+  {
+    const auto &corners = read_corners[cell];
+    return std::find(corners.begin(), corners.end(), mesh.hexahedra[cell][corner]) -
+           corners.begin();
+  }
+
+  /** Keeps nodes of cells of which a face is not plane or a node is not where corners would have it. */
+  void bend_cells()
   {
     for (unsigned int c = 0; c < mesh.hexahedra.size(); ++c)
-      for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
+    {
+      const HexahedronNodes &read = read_nodes[c];
+      HexahedronNodes nodes;
+      const unsigned int origin = place_as_read(c, 0);
+      for (unsigned int k = 0; k < 27; ++k)
       {
-        Side<3>::Piece face;
-        for (unsigned int v = 0; v < 4; ++v)
-          face[v] = mesh.corners_of(c)[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-        const double size = face[0].distance(face[3]),
-                     off = std::abs((face[1] - face[0]) * normal_of(face)) / size;
-        if (!(off <= 1e-8))
-          complain.of(numbers_of_cells[c],
-                      "the face at " + to_string(face[0]) + " of the cell is not plane, by " +
-                          to_string(off) +
-                          " of its size; curved faces are not offered in space, give cells "
-                          "plane ones");
+        const std::array<unsigned int, 3> halves{{k % 3, k / 3 % 3, k / 9}};
+        unsigned int place = 0;
+        for (unsigned int d = 0; d < 3; ++d) // of the cell as it was read
+        {
+          unsigned int half = origin >> d & 1 ? 2 : 0;
+          for (unsigned int own = 0; own < 3; ++own)
+            if (const unsigned int end = place_as_read(c, 1U << own); (end ^ origin) >> d & 1)
+              half = origin >> d & 1 ? 2 - halves[own] : halves[own];
+          place += half * (d == 0 ? 1 : d == 1 ? 3 : 9);
+        }
+        nodes[k] = read[place];
       }
+      if (!is_bent(c, nodes))
+        continue;
+      if (const auto folded = folded_at(nodes, 1e-3))
+        complain.of(numbers_of_cells[c],
+                    "the cell folds over itself or is flat at " + to_string(*folded) +
+                        "; give cells corners of less than 179.9 degrees and nodes near the "
+                        "middles of edges");
+      mesh.bent[c] = nodes;
+    }
+  }
+
+  bool is_bent(const unsigned int cell, const HexahedronNodes &nodes) const
+  {
+    Geometry<3> straight;
+    straight.corners = mesh.corners_of(cell);
+    const double size = straight.corners[0].distance(straight.corners[7]);
+    for (unsigned int k = 0; k < 27; ++k)
+      if (straight.point({k % 3 / 2., k / 3 % 3 / 2., k / 9 / 2.}).distance(nodes[k]) >
+          1e-10 * size)
+        return true;
+    for (unsigned int f = 0; f < GeometryInfo<3>::faces_per_cell; ++f)
+    {
+      Side<3>::Piece face;
+      for (unsigned int v = 0; v < 4; ++v)
+        face[v] = straight.corners[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+      if (std::abs((face[1] - face[0]) * normal_of(face)) > 1e-8 * face[0].distance(face[3]))
+        return true;
+    }
+    return false;
   }
 
   /** The tag of the physical surface on each face; 0: none. */
@@ -253,7 +383,7 @@ private:
     std::vector<std::int64_t> groups(faces.all().size(), 0);
     for (const GmshFile::Element &element : file.elements)
     {
-      if (element.type != quadrilateral || element.group == 0)
+      if (!is_quadrilateral(element) || element.group == 0)
         continue;
       std::array<unsigned int, 4> corners, nodes;
       for (unsigned int k = 0; k < 4; ++k)
@@ -320,9 +450,11 @@ private:
   const std::vector<std::string> &wanted;
   const MeshComplaint &complain;
   HexahedralMesh mesh;
-  std::set<std::array<unsigned int, 4>> left_out; ///< faces of other volumes, by nodes
-  std::vector<unsigned int> corner_of;            ///< by node; CoarseMesh::inside: not used
-  std::vector<std::size_t> numbers_of_cells;      ///< in the file
+  std::set<std::array<unsigned int, 4>> left_out;        ///< faces of other volumes, by nodes
+  std::vector<unsigned int> corner_of;                   ///< by node; CoarseMesh::inside: not used
+  std::vector<std::size_t> numbers_of_cells;             ///< in the file
+  std::vector<std::array<unsigned int, 8>> read_corners; ///< by cell, in the order of the file
+  std::vector<HexahedronNodes> read_nodes;               ///< likewise
 };
 } // namespace
 
@@ -334,6 +466,7 @@ HexahedralMesh read_hexahedral_file(const std::string &path,
   const MeshComplaint complain(path);
   file.take_smallest_groups();
   number_groups(file, 3, request, complain);
+  check_orders(file, complain);
   make_hexahedra(file);
   check_hexahedra(file, complain);
   HexahedralMesh mesh = HexahedraMaker(file, volumes, complain).make();

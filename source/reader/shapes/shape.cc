@@ -214,12 +214,17 @@ Corners<2> corners_around(const CoarseMesh &mesh)
 Corners<3> corners_around(const HexahedralMesh &mesh)
 {
   Point<3> lower = mesh.corners.front(), upper = lower;
-  for (const Point<3> &x : mesh.corners)
+  const auto take = [&](const Point<3> &x)
+  {
     for (unsigned int d = 0; d < 3; ++d)
     {
       lower[d] = std::min(lower[d], x[d]);
       upper[d] = std::max(upper[d], x[d]);
     }
+  };
+  std::for_each(mesh.corners.begin(), mesh.corners.end(), take);
+  for (const auto &[cell, nodes] : mesh.bent)
+    std::for_each(nodes.begin(), nodes.end(), take);
   return box_corners(lower, upper);
 }
 } // namespace
