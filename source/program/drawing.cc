@@ -560,6 +560,9 @@ public:
   {
     gmsh::vectorpair entities;
     gmsh::model::getEntities(entities);
+    std::vector<int> cells;
+    gmsh::model::mesh::getElementTypes(cells, 3);
+    is_of_second_order = cells.size() == 1 && (cells[0] == 12 || cells[0] == 17); // of 27, 20 nodes
     for (const auto &[dim, tag] : entities)
       if (dim > 0)
         take(dim, tag);
@@ -570,11 +573,12 @@ public:
     for (const std::string &line : lines)
       std::fprintf(out, "%s\n", line.c_str());
     if (n_by_corners > 0)
-      std::fputs(("remark " + std::to_string(n_by_corners) +
-                  " cells of second or higher order count by their corners, for in space faces are "
-                  "plane; mesh finer where that matters\n")
-                     .c_str(),
-                 out);
+      std::fputs(
+          ("remark " + std::to_string(n_by_corners) +
+           " cells of second or higher order count by their corners, for in space only meshes of "
+           "hexahedra of second order alone are curved; mesh finer where that matters\n")
+              .c_str(),
+          out);
   }
 
 private:
@@ -618,12 +622,13 @@ private:
   void take(const Kind &one, const int type, const int entity, const std::size_t number,
             const std::size_t *const element)
   {
-    std::string line = "element " + std::to_string(one.type == 0 ? type : one.type) + " " +
-                       std::to_string(groups.entity_of(one.dim, entity)) + " " +
+    const bool is_whole = one.dim == 3 && is_of_second_order;
+    std::string line = "element " + std::to_string(one.type == 0 || is_whole ? type : one.type) +
+                       " " + std::to_string(groups.entity_of(one.dim, entity)) + " " +
                        std::to_string(groups.group_of(one.dim, entity)) + " " +
                        std::to_string(number);
-    n_by_corners += one.dim == 3 && one.order > 1;
-    for (int k = 0; k < one.n_corners; ++k)
+    n_by_corners += one.dim == 3 && one.order > 1 && !is_whole;
+    for (int k = 0; k < (is_whole ? one.n_nodes : one.n_corners); ++k)
     {
       nodes.take(element[k]);
       line += " " + std::to_string(element[k]);
@@ -675,6 +680,7 @@ private:
   std::map<std::pair<std::size_t, std::size_t>, std::set<std::size_t>>
       edges; ///< of higher order: nodes between their ends
   std::size_t n_by_corners = 0;
+  bool is_of_second_order = false; ///< in space: hexahedra alone, which keep their nodes
 };
 
 constexpr int degree = 16; ///< of a panel of a curve

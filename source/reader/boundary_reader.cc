@@ -7,6 +7,7 @@
 #include <hpvi/reader/plate_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/side_normals.h>
 
 #include <deal.II/base/patterns.h>
@@ -185,7 +186,8 @@ private:
 /** Traction, pressure and shear as one load. */
 template <int dim>
 void read_loads(const ExpressionReader<dim> &expressions, const std::string &section,
-                const Side<dim> &side, const typename ExpressionReader<dim>::ExactField &exact,
+                const Geometry<dim> &geometry, const Side<dim> &side,
+                const typename ExpressionReader<dim>::ExactField &exact,
                 BoundaryCondition<dim> &boundary)
 {
   using Direction = typename TurningLoad<dim>::Direction;
@@ -206,6 +208,10 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
     return;
   Direction normal = [normal = std::make_shared<const SideNormals<dim>>(side)](const Point<dim> &x)
   { return (*normal)(x); };
+  if constexpr (dim == 3)
+    if (const HexahedralMesh *const mesh = hexahedra_of(geometry); mesh && !mesh->bent.empty())
+      normal = [normals = std::make_shared<const CurvedNormals>(*mesh)](const Point<3> &x)
+      { return (*normals)(x); };
   if (has_one_normal)
     normal = [n = common_normal(side)](const Point<dim> &) { return n; };
   add("Pressure", -1, normal);
@@ -316,7 +322,7 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
   }
   boundary.displacement =
       expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
-  read_loads<dim>(expressions, section, side, exact_traction, boundary);
+  read_loads<dim>(expressions, section, scene.geometry, side, exact_traction, boundary);
   boundary.symmetry = parameters.boolean(section, "Symmetry");
   read_spring(parameters, expressions, section, points, boundary);
   if constexpr (dim == 2)

@@ -95,9 +95,17 @@ double area_of(const Side<3>::Piece &piece)
 
 namespace
 {
-/** The nodes of a face, x fastest along it; those of a cell of which faces are plane lie on them. */
+/** The nodes of a face, x fastest along it; (1-0) x (3-0) points outwards. */
 std::array<Point<3>, 9> nodes_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
 {
+  if (mesh.bent.count(face.cell) == 0)
+  {
+    const Side<3>::Piece p = mesh.corners_of(face);
+    const auto between = [](const Point<3> &a, const Point<3> &b) { return a + (b - a) / 2.; };
+    const Point<3> low = between(p[0], p[1]), high = between(p[2], p[3]);
+    return {{p[0], low, p[1], between(p[0], p[2]), between(low, high), between(p[1], p[3]), p[2],
+             high, p[3]}};
+  }
   const HexahedronNodes &nodes = mesh.bent.at(face.cell);
   const auto &corners = mesh.hexahedra[face.cell];
   std::array<unsigned int, 3> place{}; // of corners 0, 1 and 2 of the face among the 27 nodes
@@ -167,6 +175,58 @@ private:
   const Point<3> first;
   std::array<Tensor<1, 3>, 27> from_first; ///< far from the origin differences keep their digits
 };
+/** In the first two coordinates; nothing depends on the third. */
+QuadraticMap map_of_face(const std::array<Point<3>, 9> &nodes)
+{
+  HexahedronNodes layers;
+  for (unsigned int k = 0; k < layers.size(); ++k)
+    layers[k] = nodes[k % nodes.size()];
+  return QuadraticMap(layers);
+}
+
+/** Where a face is nearest to @p x, by the method of Gauss and Newton, which for points on it is Newton's. */
+Point<3> nearest_on(const QuadraticMap &face, const Point<3> &x)
+{
+  Point<3> reference(0.5, 0.5, 0.);
+  for (unsigned int step = 0; step < 30; ++step)
+  {
+    const Tensor<2, 3> columns = transpose(face.jacobian(reference));
+    const Tensor<1, 3> rest = x - face.point(reference);
+    Tensor<2, 2> normal;
+    Tensor<1, 2> right;
+    for (unsigned int a = 0; a < 2; ++a)
+    {
+      right[a] = columns[a] * rest;
+      for (unsigned int b = 0; b < 2; ++b)
+        normal[a][b] = columns[a] * columns[b];
+    }
+    const Tensor<1, 2> change = invert(normal) * right;
+    for (unsigned int a = 0; a < 2; ++a)
+      reference[a] = std::clamp(reference[a] + change[a], 0., 1.);
+    if (change.norm() < 1e-14)
+      break;
+  }
+  return reference;
+}
+
+std::vector<BoundingBox<3>> boxes_around(const std::vector<std::array<Point<3>, 9>> &faces)
+{
+  std::vector<BoundingBox<3>> result;
+  for (const auto &nodes : faces)
+  {
+    result.emplace_back(std::vector<Point<3>>(nodes.begin(), nodes.end()));
+    result.back().extend(0.5 * nodes[0].distance(nodes[8])); // between nodes it may bulge
+  }
+  return result;
+}
+
+std::vector<std::array<Point<3>, 9>> faces_of(const HexahedralMesh &mesh)
+{
+  std::vector<std::array<Point<3>, 9>> result;
+  for (const HexahedralMesh::Face &face : mesh.faces)
+    result.push_back(nodes_of(mesh, face));
+  return result;
+}
 } // namespace
 
 std::optional<Point<3>> folded_at(const HexahedronNodes &nodes, const double least)
@@ -186,11 +246,7 @@ double area_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
 {
   if (mesh.bent.count(face.cell) == 0)
     return area_of(mesh.corners_of(face));
-  HexahedronNodes flat; // the face, as any layer of a cell
-  const auto nodes = nodes_of(mesh, face);
-  for (unsigned int k = 0; k < 27; ++k)
-    flat[k] = nodes[k % 9];
-  const QuadraticMap map(flat);
+  const QuadraticMap map = map_of_face(nodes_of(mesh, face));
   const QGauss<2> rule(8);
   double result = 0;
   for (unsigned int q = 0; q < rule.size(); ++q)
@@ -304,6 +360,25 @@ bool contains(const HexahedralMesh &mesh, const Point<3> &x, const double hair)
                                                  : contains(bent->second, x, hair))
       return true;
   return false;
+}
+
+CurvedNormals::CurvedNormals(const HexahedralMesh &mesh)
+    : faces(faces_of(mesh)), tree(boxes_around(faces))
+{
+}
+
+Tensor<1, 3> CurvedNormals::operator()(const Point<3> &x) const
+{
+  const unsigned int nearest = tree.nearest(x,
+                                            [&](const unsigned int k)
+                                            {
+                                              const QuadraticMap face = map_of_face(faces[k]);
+                                              return face.point(nearest_on(face, x)).distance(x);
+                                            });
+  const QuadraticMap face = map_of_face(faces[nearest]);
+  const Tensor<2, 3> columns = transpose(face.jacobian(nearest_on(face, x)));
+  const Tensor<1, 3> n = cross_product_3d(columns[0], columns[1]);
+  return n / n.norm();
 }
 
 std::vector<Point<3>> sample(const HexahedralMesh &mesh)

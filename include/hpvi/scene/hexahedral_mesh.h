@@ -2,6 +2,7 @@
 #ifndef hpvi_hexahedral_mesh_h
 #define hpvi_hexahedral_mesh_h
 
+#include <hpvi/scene/box_tree.h>
 #include <hpvi/scene/geometry.h>
 
 #include <map>
@@ -84,6 +85,20 @@ bool contains(const HexahedronNodes &cell, const dealii::Point<3> &x, double hai
 
 /** Likewise in one of the cells. */
 bool contains(const HexahedralMesh &mesh, const dealii::Point<3> &x, double hair);
+
+/** Outer unit normals of the boundary of a mesh that has curved faces, at points on it. */
+class CurvedNormals
+{
+public:
+  explicit CurvedNormals(const HexahedralMesh &mesh);
+
+  /** That of the face nearest to @p x where it is nearest. */
+  dealii::Tensor<1, 3> operator()(const dealii::Point<3> &x) const;
+
+private:
+  std::vector<std::array<dealii::Point<3>, 9>> faces; ///< nodes, lexicographic
+  BoxTree<3> tree;
+};
 
 /** Points all over the cells, some hundred in all; of thousands of cells every so many. */
 std::vector<dealii::Point<3>> sample(const HexahedralMesh &mesh);

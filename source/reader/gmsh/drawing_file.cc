@@ -132,7 +132,7 @@ private:
     std::getline(in, rest);
     std::istringstream tags(rest);
     std::int64_t tag = 0;
-    for (unsigned int k = 0; k < kind.n_corners && tags >> tag; ++k)
+    for (unsigned int k = 0; k < std::max(kind.n_nodes, kind.n_corners) && tags >> tag; ++k)
       element.nodes[k] = indices.at(tag);
     file.elements.push_back(element);
   }
