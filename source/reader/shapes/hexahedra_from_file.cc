@@ -31,15 +31,17 @@ std::vector<Faces> smooth_parts(const HexahedralMesh &mesh, const unsigned int b
       result.push_back(std::minmax(face.vertices[a], face.vertices[b]));
     return result;
   };
+  const auto counts = [&](const HexahedralMesh::Face &face) // of second order it is no polygon
+  { return face.boundary == boundary && mesh.bent.count(face.cell) == 0; };
   for (const HexahedralMesh::Face &face : mesh.faces)
-    if (face.boundary == boundary)
+    if (counts(face))
       for (const auto &edge : edges_of(face))
         at_edges[edge].push_back(&face);
   std::vector<Faces> parts;
   std::map<const HexahedralMesh::Face *, bool> is_taken;
   for (const HexahedralMesh::Face &first : mesh.faces)
   {
-    if (first.boundary != boundary || std::exchange(is_taken[&first], true))
+    if (!counts(first) || std::exchange(is_taken[&first], true))
       continue;
     parts.push_back({&first});
     for (unsigned int k = 0; k < parts.back().size(); ++k)
@@ -113,8 +115,8 @@ std::vector<std::string> remarks_on_facets(const HexahedralMesh &mesh)
         result.push_back(
             "boundary " + (mesh.boundaries[b].empty() ? "without a name" : mesh.boundaries[b]) +
             " " + words +
-            ", and the body has edges there however fine its cells become: space has no curved "
-            "faces; draw more of them if that matters");
+            ", and the body has edges there however fine its cells become; draw more of them, or "
+            "give hexahedra of second order, if that matters");
   return result;
 }
 
