@@ -192,6 +192,8 @@ Point<3> nearest_on(const QuadraticMap &face, const Point<3> &x)
   {
     const Tensor<2, 3> columns = transpose(face.jacobian(reference));
     const Tensor<1, 3> rest = x - face.point(reference);
+    if (rest.norm() <= 1e-15 * face.longest_edge())
+      break;
     Tensor<2, 2> normal;
     Tensor<1, 2> right;
     for (unsigned int a = 0; a < 2; ++a)
@@ -203,28 +205,40 @@ Point<3> nearest_on(const QuadraticMap &face, const Point<3> &x)
     const Tensor<1, 2> change = invert(normal) * right;
     for (unsigned int a = 0; a < 2; ++a)
       reference[a] = std::clamp(reference[a] + change[a], 0., 1.);
-    if (change.norm() < 1e-14)
+    if (change.norm() < 1e-12) // the next would be its square
       break;
   }
   return reference;
 }
 
+/** A face is within the hull of its Bezier points, of which in each direction the middle is twice a node less the mean of its ends. */
 std::vector<BoundingBox<3>> boxes_around(const std::vector<std::array<Point<3>, 9>> &faces)
 {
   std::vector<BoundingBox<3>> result;
   for (const auto &nodes : faces)
   {
-    result.emplace_back(std::vector<Point<3>>(nodes.begin(), nodes.end()));
-    result.back().extend(0.5 * nodes[0].distance(nodes[8])); // between nodes it may bulge
+    std::vector<Point<3>> points(nodes.begin(), nodes.end());
+    for (const auto &[along, across] : {std::pair(1, 3), {3, 1}})
+      for (unsigned int line = 0; line < 3; ++line)
+      {
+        const unsigned int k = across * line;
+        points[k + along] =
+            points[k + along] +
+            ((points[k + along] - points[k]) + (points[k + along] - points[k + 2 * along])) / 2.;
+      }
+    result.emplace_back(points);
+    result.back().extend(1e-9 * nodes[0].distance(nodes[8]));
   }
   return result;
 }
 
-std::vector<std::array<Point<3>, 9>> faces_of(const HexahedralMesh &mesh)
+std::vector<std::array<Point<3>, 9>> faces_of(const HexahedralMesh &mesh,
+                                              const unsigned int boundary)
 {
   std::vector<std::array<Point<3>, 9>> result;
   for (const HexahedralMesh::Face &face : mesh.faces)
-    result.push_back(nodes_of(mesh, face));
+    if (face.boundary == boundary)
+      result.push_back(nodes_of(mesh, face));
   return result;
 }
 } // namespace
@@ -362,8 +376,8 @@ bool contains(const HexahedralMesh &mesh, const Point<3> &x, const double hair)
   return false;
 }
 
-CurvedNormals::CurvedNormals(const HexahedralMesh &mesh)
-    : faces(faces_of(mesh)), tree(boxes_around(faces))
+CurvedNormals::CurvedNormals(const HexahedralMesh &mesh, const unsigned int boundary)
+    : faces(faces_of(mesh, boundary)), tree(boxes_around(faces))
 {
 }
 

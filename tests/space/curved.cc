@@ -3,7 +3,7 @@
 #include "grid.h"
 
 #include <hpvi/base/input_error.h>
-#include <hpvi/space/contact_dof_transform.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 
@@ -23,8 +23,8 @@ Point<3> ring(const Point<3> &x)
 /** Three radii of curvature: a quadratic of the cells of a single layer, so that the mesh has it exactly. */
 Point<3> pillow(const Point<3> &x)
 {
-  const double below = 0.3 * x[0] * x[0] + 0.2 * x[0] * x[1] - 0.25 * x[1] * x[1];
-  return {x[0], x[1], below * (1 - x[2]) + x[2] * (1 + 0.1 * x[0] * x[1])};
+  const double below = 0.3 * x[0] * x[0] + 0.2 * x[0] * x[2] - 0.25 * x[2] * x[2];
+  return {x[0], below * (1 - x[1]) + x[1] * (1 + 0.1 * x[0] * x[2]), x[2]};
 }
 
 Point<3> turned(const Point<3> &x)
@@ -32,6 +32,13 @@ Point<3> turned(const Point<3> &x)
   const double c = std::cos(0.5), s = std::sin(0.5), d = std::cos(0.3), t = std::sin(0.3);
   const Point<3> y(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]);
   return {y[0], d * y[1] - t * y[2], t * y[1] + d * y[2]};
+}
+
+Point<3> turned_back(const Point<3> &x)
+{
+  const double c = std::cos(0.5), s = std::sin(0.5), d = std::cos(0.3), t = std::sin(0.3);
+  const Point<3> y(x[0], d * x[1] + t * x[2], -t * x[1] + d * x[2]);
+  return {c * y[0] + s * y[1], -s * y[0] + c * y[1], y[2]};
 }
 
 /** E = 200, nu = 0.3, planes of symmetry at the ends and on both sides of a ring of @p n cells around. */
@@ -110,7 +117,7 @@ TEST(CurvedHexahedra, PressUniformly)
     for (const unsigned int degree : {2U, 3U, 4U})
     {
       const Map map = [=](const Point<3> &x) { return is_turned ? turned(pillow(x)) : pillow(x); };
-      Scene<3> scene = scene_of({{{2, 2, 1}}, map, true, Grid::everywhere, 27}, "curved-pressure");
+      Scene<3> scene = scene_of({{{2, 1, 2}}, map, true, Grid::everywhere, 27}, "curved-pressure");
       scene.adaptivity.start_degree = degree;
       scene.adaptivity.maximum_steps = 1;
       scene.solver.primal_tolerance = 1e-12;
@@ -122,7 +129,13 @@ TEST(CurvedHexahedra, PressUniformly)
       for (BoundaryCondition<3> &boundary : scene.boundaries)
         if (boundary.id != bottom.id)
           prescribe(boundary, exact);
-      const CurvedNormals normal(*hexahedra_of(scene.geometry));
+      const auto normal = [=](const Point<3> &x) // (q_x, -1, q_z) of the bottom y = q
+      {
+        const Point<3> y = is_turned ? turned_back(x) : x;
+        Tensor<1, 3> n({0.6 * y[0] + 0.2 * y[2], -1, 0.2 * y[0] - 0.5 * y[2]});
+        n /= n.norm();
+        return is_turned ? Tensor<1, 3>(turned(Point<3>(n))) : n;
+      };
       bottom.contact = Contact::unilateral;
       bottom.gap = expression<3>(std::function<double(const Point<3> &)>(
           [&](const Point<3> &x) { return normal(x) * exact.value(x); }));
@@ -192,11 +205,12 @@ TEST(CurvedHexahedra, SlipAlongAShaft)
   for (const unsigned int degree : {2U, 3U})
   {
     Scene<3> scene = ring_scene(4, 27,
-                                {{"Boundary left/Contact", "tangential"},
+                                {{"Material/Young's modulus", "1e4"},
+                                 {"Boundary left/Contact", "tangential"},
                                  {"Boundary left/Friction bound", "0.2"},
-                                 {"Boundary bottom/Symmetry", "false"},
-                                 {"Boundary top/Symmetry", "false"},
-                                 {"Boundary right/Displacement", "0; 0; 1"},
+                                 {"Boundary front/Symmetry", "false"},
+                                 {"Boundary back/Symmetry", "false"},
+                                 {"Boundary right/Displacement", "free; free; 1"},
                                  {"Adaptivity/Maximum steps", "2"},
                                  {"Adaptivity/Method", "hap2"}});
     scene.adaptivity.start_degree = degree;
@@ -207,12 +221,12 @@ TEST(CurvedHexahedra, SlipAlongAShaft)
                   double area = 0;
                   for (const ContactPoint<3> &point : step.contact.at(0).points)
                   {
-                    EXPECT_LT((point.lambda - Tensor<1, 3>({0, 0, 1})).norm(), 1e-6);
+                    EXPECT_LT((point.lambda - Tensor<1, 3>({0, 0, 1})).norm(), 1e-4);
                     area += point.area;
                   }
                   EXPECT_NEAR(force_on_left(step)[2], -0.2 * area, 1e-8);
-                  EXPECT_NEAR(step.equilibrium.force_imbalance, 0, 1e-9);
-                  EXPECT_NEAR(step.equilibrium.moment_imbalance, 0, 1e-9);
+                  EXPECT_NEAR(step.equilibrium.force_imbalance, 0, 1e-8);
+                  EXPECT_NEAR(step.equilibrium.moment_imbalance, 0, 1e-8);
                   energies.push_back(step.energies.energy);
                 });
     ASSERT_EQ(energies.size(), 2U);

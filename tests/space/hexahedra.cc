@@ -545,13 +545,9 @@ TEST(Hexahedra, AreRefusedInOneLine)
       refused({{{2, 1, 1}},
                [](const Point<3> &x) { return Point<3>(x[0], x[1], x[2] + 0.1 * x[0] * x[1]); }}),
       "");
-  has(refused({{{2, 1, 1}},
+  has(refused({{{1, 1, 1}},
                [](const Point<3> &x)
-               {
-                 return Point<3>(x[0], x[1],
-                                 (1 - 0.5 * x[0] * (1 - x[0])) * x[2] +
-                                     4 * x[0] * (1 - x[0]) * (1 - x[2]) * 1.2);
-               },
+               { return Point<3>(x[0], x[1], x[2] + 2.4 * x[2] * (1 - x[2])); },
                false,
                Grid::everywhere,
                27}),

@@ -86,11 +86,11 @@ bool contains(const HexahedronNodes &cell, const dealii::Point<3> &x, double hai
 /** Likewise in one of the cells. */
 bool contains(const HexahedralMesh &mesh, const dealii::Point<3> &x, double hair);
 
-/** Outer unit normals of the boundary of a mesh that has curved faces, at points on it. */
+/** Outer unit normals of one boundary of a mesh that has curved faces, at points on it. */
 class CurvedNormals
 {
 public:
-  explicit CurvedNormals(const HexahedralMesh &mesh);
+  CurvedNormals(const HexahedralMesh &mesh, unsigned int boundary);
 
   /** That of the face nearest to @p x where it is nearest. */
   dealii::Tensor<1, 3> operator()(const dealii::Point<3> &x) const;
