@@ -175,40 +175,55 @@ private:
   const Point<3> first;
   std::array<Tensor<1, 3>, 27> from_first; ///< far from the origin differences keep their digits
 };
-/** In the first two coordinates; nothing depends on the third. */
-QuadraticMap map_of_face(const std::array<Point<3>, 9> &nodes)
+/** At a point of a face with nodes x_k: `x - x_0` and its derivatives along both coordinates. */
+struct OnFace
 {
-  HexahedronNodes layers;
-  for (unsigned int k = 0; k < layers.size(); ++k)
-    layers[k] = nodes[k % nodes.size()];
-  return QuadraticMap(layers);
-}
+  OnFace(const std::array<Point<3>, 9> &nodes, const Point<2> &xi)
+  {
+    const auto a = quadratics(xi[0], 0), b = quadratics(xi[1], 0), da = quadratics(xi[0], 1),
+               db = quadratics(xi[1], 1);
+    for (unsigned int k = 1; k < 9; ++k)
+    {
+      const Tensor<1, 3> node = nodes[k] - nodes[0];
+      from_first += a[k % 3] * b[k / 3] * node;
+      along[0] += da[k % 3] * b[k / 3] * node;
+      along[1] += a[k % 3] * db[k / 3] * node;
+    }
+  }
+
+  Tensor<1, 3> area_vector() const ///< n ds over that of the unit square
+  {
+    return cross_product_3d(along[0], along[1]);
+  }
+
+  Tensor<1, 3> from_first;
+  std::array<Tensor<1, 3>, 2> along;
+};
 
 /** Where a face is nearest to @p x, by the method of Gauss and Newton, which for points on it is Newton's. */
-Point<3> nearest_on(const QuadraticMap &face, const Point<3> &x)
+Point<2> nearest_on(const std::array<Point<3>, 9> &face, const Point<3> &x)
 {
-  Point<3> reference(0.5, 0.5, 0.);
+  Point<2> xi(0.5, 0.5);
   for (unsigned int step = 0; step < 30; ++step)
   {
-    const Tensor<2, 3> columns = transpose(face.jacobian(reference));
-    const Tensor<1, 3> rest = x - face.point(reference);
-    if (rest.norm() <= 1e-15 * face.longest_edge())
-      break;
+    const OnFace here(face, xi);
+    const Tensor<1, 3> rest = (x - face[0]) - here.from_first;
     Tensor<2, 2> normal;
     Tensor<1, 2> right;
     for (unsigned int a = 0; a < 2; ++a)
     {
-      right[a] = columns[a] * rest;
+      right[a] = here.along[a] * rest;
       for (unsigned int b = 0; b < 2; ++b)
-        normal[a][b] = columns[a] * columns[b];
+        normal[a][b] = here.along[a] * here.along[b];
     }
+    const Point<2> old = xi;
     const Tensor<1, 2> change = invert(normal) * right;
     for (unsigned int a = 0; a < 2; ++a)
-      reference[a] = std::clamp(reference[a] + change[a], 0., 1.);
-    if (change.norm() < 1e-12) // the next would be its square
+      xi[a] = std::clamp(xi[a] + change[a], 0., 1.);
+    if (xi.distance(old) < 1e-9) // Newton's next step would be its square
       break;
   }
-  return reference;
+  return xi;
 }
 
 /** A face is within the hull of its Bezier points, of which in each direction the middle is twice a node less the mean of its ends. */
@@ -260,15 +275,11 @@ double area_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
 {
   if (mesh.bent.count(face.cell) == 0)
     return area_of(mesh.corners_of(face));
-  const QuadraticMap map = map_of_face(nodes_of(mesh, face));
+  const auto nodes = nodes_of(mesh, face);
   const QGauss<2> rule(8);
   double result = 0;
   for (unsigned int q = 0; q < rule.size(); ++q)
-  {
-    const Point<3> xi(rule.point(q)[0], rule.point(q)[1], 0.);
-    const Tensor<2, 3> J = transpose(map.jacobian(xi));
-    result += rule.weight(q) * cross_product_3d(J[0], J[1]).norm();
-  }
+    result += rule.weight(q) * OnFace(nodes, rule.point(q)).area_vector().norm();
   return result;
 }
 
@@ -383,15 +394,10 @@ CurvedNormals::CurvedNormals(const HexahedralMesh &mesh, const unsigned int boun
 
 Tensor<1, 3> CurvedNormals::operator()(const Point<3> &x) const
 {
-  const unsigned int nearest = tree.nearest(x,
-                                            [&](const unsigned int k)
-                                            {
-                                              const QuadraticMap face = map_of_face(faces[k]);
-                                              return face.point(nearest_on(face, x)).distance(x);
-                                            });
-  const QuadraticMap face = map_of_face(faces[nearest]);
-  const Tensor<2, 3> columns = transpose(face.jacobian(nearest_on(face, x)));
-  const Tensor<1, 3> n = cross_product_3d(columns[0], columns[1]);
+  const unsigned int nearest = tree.nearest(
+      x, [&](const unsigned int k)
+      { return (x - faces[k][0] - OnFace(faces[k], nearest_on(faces[k], x)).from_first).norm(); });
+  const Tensor<1, 3> n = OnFace(faces[nearest], nearest_on(faces[nearest], x)).area_vector();
   return n / n.norm();
 }
 
