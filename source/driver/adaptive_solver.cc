@@ -285,7 +285,7 @@ void AdaptiveSolver<dim>::estimate_error()
   estimate = backend->estimate();
   norms = hpvi::norms(estimate, backend->communicator);
   check_finite("the error indicator", norms.total,
-               scene.materials[0].modulus() * backend->field().largest_displacement());
+               scene.materials[0].modulus(dim) * backend->field().largest_displacement());
   {
     StageTimer timer(backend->times.recover);
     energies = backend->energies();

@@ -22,8 +22,8 @@ void check_underflow(const Scene<dim> &scene, const double largest)
   const double negligible =
       std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
   for (const Material &material : scene.materials) // the softest part may hold it all
-    if (largest > 0 && material.modulus() * largest * largest < negligible)
-      throw NumericalFailure("the energy underflows: " + material.stiffness_in_words() +
+    if (largest > 0 && material.modulus(dim) * largest * largest < negligible)
+      throw NumericalFailure("the energy underflows: " + material.stiffness_in_words(dim) +
                              " and displacements up to " + to_string(largest) +
                              "; choose units in which loads are moderate");
 }
@@ -77,7 +77,7 @@ void check_algebraic_error(const AlgebraicError &error, const double negligible)
 template <int dim>
 void check_numbers(const Scene<dim> &scene, const double displacement, const Energies &energies)
 {
-  const double stress = scene.materials[0].modulus() * displacement;
+  const double stress = scene.materials[0].modulus(dim) * displacement;
   check_finite("the energy", energies.energy, stress);
   check_finite("the Lagrangian", energies.lagrangian, stress);
   check_finite("the energy norm", energies.norm, stress);

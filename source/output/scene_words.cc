@@ -122,7 +122,7 @@ std::string name_in_words(const Scene<dim> &scene, const std::size_t number)
 template <int dim>
 std::string material_in_words(const Scene<dim> &scene, const Material &material)
 {
-  std::string words = material.elasticity_in_words(unit_name(scene.stress_unit));
+  std::string words = material.elasticity_in_words(unit_name(scene.stress_unit), dim);
   if (dim == 2)
     words += scene.is_axisymmetric()                ? ", axisymmetric, forces of the full turn"
              : material.plane == PlaneModel::stress ? ", plane stress"

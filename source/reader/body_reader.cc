@@ -88,15 +88,15 @@ void read_materials(const Parameters &parameters, const std::vector<std::string>
   scene.materials = {read_material(parameters, dim, "")};
   for (const std::string &name : names)
     scene.materials.push_back(read_material(parameters, dim, name));
-  if (dim == 3)
-    return;
-  const PlaneModel plane = plane_model(common_value(parameters, scene.materials, "Plane"));
-  for (Material &material : scene.materials)
+  if (dim == 2)
   {
-    material.plane = plane;
-    read_elasticity(parameters, material);
+    const PlaneModel plane = plane_model(common_value(parameters, scene.materials, "Plane"));
+    for (Material &material : scene.materials)
+      material.plane = plane;
+    scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
   }
-  scene.thickness = std::stod(common_value(parameters, scene.materials, "Thickness"));
+  for (Material &material : scene.materials)
+    read_elasticity(parameters, dim, material);
 }
 
 /** Surfaces of the mesh that a material names; none: that of its name. */

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace hpvi
@@ -52,9 +53,12 @@ struct Inheritance
 class SectionReader
 {
 public:
-  SectionReader(const Parameters &parameters, const Material &material)
+  SectionReader(const Parameters &parameters, const int dim, const Material &material)
       : parameters(parameters), section(section_of_material(material.name)),
-        needed_by(material.plane == PlaneModel::stress ? "plane stress" : "plane strain")
+        needed_by(dim == 3                               ? "space"
+                  : material.plane == PlaneModel::stress ? "plane stress"
+                                                         : "plane strain"),
+        shears(dim == 3 ? "G12, G13, G23" : "G12")
   {
   }
 
@@ -86,8 +90,22 @@ public:
                             needed_by + "; give " +
                             (entry == moduli   ? "E1, E2, E3"
                              : entry == ratios ? "nu12, nu13, nu23"
-                                               : "G12"));
+                                               : shears));
     return Utilities::string_to_double(parts[index]);
+  }
+
+  /** The two vectors of Axes. */
+  std::array<Tensor<1, 3>, 2> axes() const
+  {
+    std::array<Tensor<1, 3>, 2> result;
+    const std::vector<std::string> vectors = Utilities::split_string_list(text("Axes"), ';');
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const auto components =
+          Utilities::string_to_double(Utilities::split_string_list(vectors[k], ','));
+      std::copy(components.begin(), components.end(), result[k].begin_raw());
+    }
+    return result;
   }
 
   /** @p wanted: a number in words. */
@@ -101,42 +119,63 @@ public:
 
 private:
   const Parameters &parameters;
-  const std::string section, needed_by;
+  const std::string section, needed_by, shears;
 };
 
-/** Of orthotropy in the plane, without section. */
-std::vector<Entry> elasticity_entries()
+/** Of orthotropy, without section. */
+std::vector<Entry> elasticity_entries(const int dim)
 {
-  const auto list = [](const double least, const double most, const unsigned int fewest)
-  { return word_or("", Patterns::List(Patterns::Double(least, most), fewest, 3)); };
-  const std::string ignored = " G13 and G23 may stand behind it, and no plane asks for them.";
+  const bool is_plane = dim == 2;
+  const auto list = [&](const double least, const double most, const unsigned int fewest)
+  { return word_or("", Patterns::List(Patterns::Double(least, most), is_plane ? fewest : 3, 3)); };
+  const auto wanted = [&](const std::string &plane, const std::string &all)
+  { return (is_plane ? plane + " or " : "") + all; };
+  const auto in_plane = [&](const std::string &words) { return is_plane ? words : ""; };
+  const Patterns::List vectors(Patterns::List(Patterns::Double(-1e100, 1e100), 3, 3, ","), 2, 2,
+                               ";");
   return {
       {"", "Elasticity", isotropic,
        std::make_shared<Patterns::Selection>(isotropic + '|' + orthotropic),
        isotropic + " or " + orthotropic,
-       "isotropic: Young's modulus and Poisson's ratio. orthotropic: three axes at right angles, "
-       "the third across "
-       "the plane, with Young's moduli, Poisson's ratios, Shear moduli and Angle in their place."},
-      {"", moduli, "", list(1e-100, 1e100, 2), "E1, E2 or E1, E2, E3, numbers from 1e-100 to 1e100",
-       "E1, E2, E3 > 0 of an orthotropic material [stress]; plane stress needs no E3."},
-      {"", ratios, "", list(-1e100, 1e100, 1), "nu12 or nu12, nu13, nu23",
+       "isotropic: Young's modulus and Poisson's ratio. orthotropic: three axes at right angles, " +
+           in_plane("the third across the plane, ") +
+           "with Young's moduli, Poisson's ratios, Shear moduli and " +
+           (is_plane ? "Angle" : "Axes") + " in their place."},
+      {"", moduli, "", list(1e-100, 1e100, 2),
+       wanted("E1, E2", "E1, E2, E3") + ", numbers from 1e-100 to 1e100",
+       "E1, E2, E3 > 0 of an orthotropic material [stress]" +
+           in_plane("; plane stress needs no E3") + "."},
+      {"", ratios, "", list(-1e100, 1e100, 1), wanted("nu12", "nu12, nu13, nu23"),
        "nu12, nu13, nu23 of an orthotropic material [-]: nu_ij = -eps_j/eps_i where sigma_i acts "
        "alone, and "
-       "nu_ij/E_i = nu_ji/E_j. Plane stress needs nu12 alone."},
-      {"", shear_moduli, "", list(1e-100, 1e100, 1), "G12, a number from 1e-100 to 1e100",
-       "G12 > 0 of an orthotropic material [stress]." + ignored},
-      {"", "Angle", "", word_or("", Patterns::Double(-360, 360)), "degrees from -360 to 360",
-       "Of axis 1 of an orthotropic material against x, counterclockwise [degrees]; empty: 0."}};
+       "nu_ij/E_i = nu_ji/E_j." +
+           in_plane(" Plane stress needs nu12 alone.")},
+      {"", shear_moduli, "", list(1e-100, 1e100, 1),
+       is_plane ? "G12, a number from 1e-100 to 1e100"
+                : "G12, G13, G23, numbers from 1e-100 to 1e100",
+       is_plane ? "G12 > 0 of an orthotropic material [stress]. G13 and G23 may stand behind it, "
+                  "and no plane asks for them."
+                : "G12, G13, G23 > 0 of an orthotropic material [stress]."},
+      is_plane
+          ? Entry{"", "Angle", "", word_or("", Patterns::Double(-360, 360)),
+                  "degrees from -360 to 360",
+                  "Of axis 1 of an orthotropic material against x, counterclockwise [degrees]; "
+                  "empty: 0."}
+          : Entry{"", "Axes", "", word_or("", vectors), "two vectors x1, y1, z1; x2, y2, z2",
+                  "Of an orthotropic material: a vector along axis 1, and one in the plane of "
+                  "axes 1 and 2, on the side of axis 2. Their lengths mean nothing; axis 3 is at "
+                  "right angles to both. Empty: x and y."}};
 }
 } // namespace
 
-void read_elasticity(const Parameters &parameters, Material &material)
+void read_elasticity(const Parameters &parameters, const int dim, Material &material)
 {
   const std::vector<std::string> of_isotropic = {"Young's modulus", "Poisson's ratio"};
-  const SectionReader section(parameters, material);
+  const std::string direction = dim == 3 ? "Axes" : "Angle";
+  const SectionReader section(parameters, dim, material);
   if (section.text("Elasticity") == isotropic)
   {
-    section.forbid({moduli, ratios, shear_moduli, "Angle"}, isotropic);
+    section.forbid({moduli, ratios, shear_moduli, direction}, isotropic);
     section.require(of_isotropic[0], "a number E > 0");
     section.require(of_isotropic[1], "a number nu with -1 < nu < 1/2");
     return;
@@ -145,15 +184,19 @@ void read_elasticity(const Parameters &parameters, Material &material)
   material.young = Material().young; // nobody's, but a number
   material.poisson = Material().poisson;
   Orthotropy result;
-  const bool is_strain = material.plane == PlaneModel::strain;
-  for (unsigned int i = 0; i < (is_strain ? 3 : 2); ++i)
+  const bool is_full = dim == 3 || material.plane == PlaneModel::strain;
+  for (unsigned int i = 0; i < (is_full ? 3 : 2); ++i)
     result.young[i] = section.number(moduli, i, "E" + std::to_string(i + 1));
   const char *const symbols[] = {"nu12", "nu13", "nu23"};
-  for (unsigned int i = 0; i < (is_strain ? 3 : 1); ++i)
+  for (unsigned int i = 0; i < (is_full ? 3 : 1); ++i)
     result.poisson[i] = section.number(ratios, i, symbols[i]);
   result.shear = section.number(shear_moduli, 0, "G12");
-  if (const std::string angle = section.text("Angle"); !angle.empty())
-    result.angle = Utilities::string_to_double(angle);
+  for (unsigned int i = 0; dim == 3 && i < 2; ++i)
+    result.shear_across[i] = section.number(shear_moduli, 1 + i, i == 0 ? "G13" : "G23");
+  if (!section.text(direction).empty() && dim == 3)
+    result.axes = section.axes();
+  else if (!section.text(direction).empty())
+    result.angle = Utilities::string_to_double(section.text(direction));
   material.orthotropy = result;
 }
 
@@ -183,12 +226,9 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
                        "The surfaces of a drawing or a mesh file that are made of this material; "
                        "empty: that of the same name."});
   // Nothing, as scene.prm has them, is for orthotropic materials alone.
-  const auto number_or_nothing = [dim](const Patterns::Double &number)
-  { return dim == 2 ? word_or("", number) : Pattern(number.clone()); };
-  add("Young's modulus", "1", *number_or_nothing(young_pattern), number_words,
+  add("Young's modulus", "1", *word_or("", young_pattern), number_words,
       "E > 0 [stress]; constant E in expressions.");
-  add("Poisson's ratio", "0.3", *number_or_nothing(Patterns::Double()),
-      "a number nu with -1 < nu < 1/2",
+  add("Poisson's ratio", "0.3", *word_or("", Patterns::Double()), "a number nu with -1 < nu < 1/2",
       "nu in (-1, 1/2); constant nu in expressions, as is mu = E/(2(1+nu)).");
   add("Density", "0", Patterns::Double(0), "a number >= 0",
       "Mass per volume: Body force/Gravity times it is a force per volume [stress/length].");
@@ -216,9 +256,9 @@ std::vector<Entry> material_entries(const int dim, const std::string &name)
         "Thickness b of the body [length], one for the whole of it: forces, moments, works and "
         "energies are b times those of a unit, norms and bounds of the error b^(1/2) times; "
         "tractions, stresses and relative errors stay.");
-    for (const Entry &entry : elasticity_entries())
-      add(entry.name, entry.default_value, *entry.pattern, entry.wanted, entry.documentation);
   }
+  for (const Entry &entry : elasticity_entries(dim))
+    add(entry.name, entry.default_value, *entry.pattern, entry.wanted, entry.documentation);
   return entries;
 }
 

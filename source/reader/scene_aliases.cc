@@ -153,6 +153,7 @@ std::vector<Alias> hints_in_plane()
        "set \"Material/Elasticity\" = orthotropic, \"Material/Young's moduli\" = E1, E2, E3, "
        "\"Material/Poisson's ratios\" = nu12, nu13, nu23, \"Material/Shear moduli\" = G12 and "
        "\"Material/Angle\""},
+      {{"axes"}, "set \"Material/Angle\" = degrees of axis 1 against x"},
       {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force"},
        "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
        "\"Boundary top/Force\" = Fx; Fy"},
@@ -167,10 +168,11 @@ std::vector<Alias> hints_in_plane()
 
 std::vector<Alias> hints_in_space()
 {
-  std::vector<std::string> orthotropic = words_of_orthotropy;
-  for (const char *const entry : {"young's moduli", "poisson's ratios", "shear moduli", "angle"})
-    orthotropic.push_back(entry);
-  return {{orthotropic, "only a body in the plane may be orthotropic; remove it"},
+  return {{words_of_orthotropy,
+           "set \"Material/Elasticity\" = orthotropic, \"Material/Young's moduli\" = E1, E2, E3, "
+           "\"Material/Poisson's ratios\" = nu12, nu13, nu23, \"Material/Shear moduli\" = G12, "
+           "G13, G23 and \"Material/Axes\" = x1, y1, z1; x2, y2, z2"},
+          {{"angle"}, "set \"Material/Axes\" = x1, y1, z1; x2, y2, z2, vectors along axes 1 and 2"},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
           {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
           {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},

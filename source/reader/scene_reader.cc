@@ -248,7 +248,7 @@ void complete(Parameters &parameters, const std::string &name)
   if (parameters.has("Error", "Bound") && parameters.text("Error", "Bound") == "last step" &&
       !parameters.is_named("Adaptivity", "Indicator"))
     parameters.set("Adaptivity", "Indicator", "residual"); // which all steps have
-  if (is_in_space(parameters) || parameters.text("Material", "Elasticity") == "isotropic")
+  if (parameters.text("Material", "Elasticity") == "isotropic")
     return;
   for (const char *const entry : {"Young's modulus", "Poisson's ratio"})
     if (!parameters.is_named("Material", entry))

@@ -26,11 +26,28 @@ double largest_eigenvalue(const VoigtMatrix &matrix, const double shear)
 }
 
 /** Largest and least of C on symmetric tensors [stress], each from the matrix in which it is the largest. */
-std::array<double, 2> stiffnesses_of(const Orthotropy &orthotropy, const PlaneModel plane)
+std::array<double, 2> stiffnesses_of(const Orthotropy &orthotropy, const PlaneModel plane,
+                                     const int dim)
 {
+  if (dim == 3) // in its axes the shears stand alone
+  {
+    const VoigtMatrix S = orthotropy.normal_compliance();
+    const auto [least, most] =
+        std::minmax({orthotropy.shear, orthotropy.shear_across[0], orthotropy.shear_across[1]});
+    return {{std::max(largest_eigenvalue(inverse(S), 1.), 2 * most),
+             std::min(1 / largest_eigenvalue(S, 1.), 2 * least)}};
+  }
   const VoigtMatrix S = orthotropy.compliance(plane);
   return {
       {largest_eigenvalue(inverse(S), std::sqrt(2.)), 1 / largest_eigenvalue(S, std::sqrt(0.5))}};
+}
+
+std::string in_words(const std::array<Tensor<1, 3>, 2> &axes)
+{
+  std::string words;
+  for (unsigned int k = 0; k < 6; ++k)
+    words += (k == 0 ? "" : k == 3 ? "; " : ", ") + text(axes[k / 3][k % 3], 6);
+  return words;
 }
 
 /** What a file could not say in the first place, then what no elastic material has. */
@@ -41,11 +58,18 @@ std::optional<Material::Flaw> flaw_of(const Orthotropy &orthotropy, const PlaneM
   for (unsigned int i = 0; i < (plane == PlaneModel::strain ? 3 : 2); ++i)
     if (!is_modulus(orthotropy.young[i]))
       return Material::Flaw{"Young's moduli", remedy, text(orthotropy.young[i])};
-  if (!is_modulus(orthotropy.shear))
-    return Material::Flaw{"Shear moduli", remedy, text(orthotropy.shear)};
+  for (const double shear :
+       {orthotropy.shear, orthotropy.shear_across[0], orthotropy.shear_across[1]})
+    if (!is_modulus(shear))
+      return Material::Flaw{"Shear moduli", remedy, text(shear)};
   if (!(std::abs(orthotropy.angle) <= 360))
     return Material::Flaw{"Angle", "is no angle; give degrees from -360 to 360",
                           text(orthotropy.angle)};
+  if (!orthotropy.has_axes())
+    return Material::Flaw{"Axes",
+                          "are no two directions; give axis 1 and a vector in the plane of axes 1 "
+                          "and 2 that is not along it, x1, y1, z1; x2, y2, z2",
+                          in_words(orthotropy.axes)};
   if (const auto problem = orthotropy.flaw(plane))
     return Material::Flaw{"Poisson's ratios", *problem, text(orthotropy.poisson[0])};
   return std::nullopt;
@@ -92,20 +116,22 @@ std::map<std::string, double> Material::constants() const
 double Material::coercivity(const int dim) const
 {
   if (orthotropy)
-    return stiffnesses_of(*orthotropy, plane).back();
+    return stiffnesses_of(*orthotropy, plane, dim).back();
   return 2 * mu() + std::min(dim * lambda(dim), 0.);
 }
 
-double Material::modulus() const
+double Material::modulus(const int dim) const
 {
-  return orthotropy ? std::max(orthotropy->young[0], orthotropy->young[1]) : young;
+  if (!orthotropy)
+    return young;
+  return *std::max_element(orthotropy->young.begin(), orthotropy->young.begin() + dim);
 }
 
 double Material::locking_ratio(const int dim) const
 {
   if (!orthotropy)
     return lambda(dim) / mu();
-  const auto values = stiffnesses_of(*orthotropy, plane);
+  const auto values = stiffnesses_of(*orthotropy, plane, dim);
   return values.front() / values.back() - 1;
 }
 
@@ -169,11 +195,12 @@ std::string Material::locking_in_words(const int dim) const
   return words.str();
 }
 
-std::string Material::stiffness_in_words() const
+std::string Material::stiffness_in_words(const int dim) const
 {
   if (orthotropy)
     return "Young's moduli " + to_string(orthotropy->young[0]) + ", " +
-           to_string(orthotropy->young[1]);
+           to_string(orthotropy->young[1]) +
+           (dim == 3 ? ", " + to_string(orthotropy->young[2]) : "");
   return "Young's modulus " + to_string(young);
 }
 
@@ -181,20 +208,25 @@ double Material::kolosov() const
 {
   return (lambda(2) + 3 * mu()) / (lambda(2) + mu());
 }
-std::string Material::elasticity_in_words(const std::string &unit) const
+
+std::string Material::elasticity_in_words(const std::string &unit, const int dim) const
 {
   const std::string stress = unit.empty() ? "" : " " + unit;
   if (!orthotropy)
     return "Young's modulus " + to_string(young) + stress + ", Poisson's ratio " + text(poisson, 6);
   const Orthotropy &own = *orthotropy;
-  const bool is_strain = plane == PlaneModel::strain;
+  const bool is_full = dim == 3 || plane == PlaneModel::strain;
   std::string words = orthotropic;
-  for (unsigned int i = 0; i < (is_strain ? 3 : 2); ++i)
+  for (unsigned int i = 0; i < (is_full ? 3 : 2); ++i)
     words += ", E" + std::to_string(i + 1) + " = " + text(own.young[i], 6);
-  words += ", G12 = " + text(own.shear, 6) + stress;
+  words += ", G12 = " + text(own.shear, 6);
+  if (dim == 3)
+    words += ", G13 = " + text(own.shear_across[0], 6) + ", G23 = " + text(own.shear_across[1], 6);
+  words += stress;
   const char *const symbols[] = {"nu12", "nu13", "nu23"};
-  for (unsigned int i = 0; i < (is_strain ? 3 : 1); ++i)
+  for (unsigned int i = 0; i < (is_full ? 3 : 1); ++i)
     words += std::string(", ") + symbols[i] + " = " + text(own.poisson[i], 6);
-  return words + ", axis 1 at " + text(own.angle, 6) + " degrees";
+  return words + (dim == 3 ? ", axes 1 and 2 by " + in_words(own.axes)
+                           : ", axis 1 at " + text(own.angle, 6) + " degrees");
 }
 } // namespace hpvi

@@ -27,6 +27,43 @@ VoigtMatrix to_axes(const double degrees)
            {{s * s, c * c, -2 * c * s}},
            {{-c * s, c * s, c * c - s * s}}}};
 }
+
+/** Of stresses s those in another frame, `R s R'`. */
+Voigt<3> turning(const Tensor<2, 3> &R)
+{
+  Voigt<3> T{};
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = i; j < 3; ++j)
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = a; b < 3; ++b)
+          T[voigt<3>(i, j)][voigt<3>(a, b)] = R[i][a] * R[j][b] + (a == b ? 0. : R[i][b] * R[j][a]);
+  return T;
+}
+
+/** `T A T'` of a matrix that couples normal components by @p normal and each shear with itself. */
+Voigt<3> turned(const Voigt<3> &T, const VoigtMatrix &normal, const std::array<double, 3> &shears)
+{
+  Voigt<3> AT{}, result{};
+  for (unsigned int j = 0; j < 6; ++j)
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      for (unsigned int l = 0; l < 3; ++l)
+        AT[k][j] += normal[k][l] * T[j][l];
+      AT[3 + k][j] = shears[k] * T[j][3 + k];
+    }
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int j = 0; j < 6; ++j)
+      for (unsigned int k = 0; k < 6; ++k)
+        result[i][j] += T[i][k] * AT[k][j];
+  return result;
+}
+
+Tensor<1, 3> of_length_one(const Tensor<1, 3> &vector)
+{
+  const double scale = std::max(
+      {std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])}); // no square overflows
+  return vector / scale / (vector / scale).norm();
+}
 } // namespace
 
 /** In the axes of the material first. In plane strain sigma_3 is what eps_3 = 0 asks for. */
@@ -49,6 +86,54 @@ VoigtMatrix Orthotropy::compliance(const PlaneModel plane) const
         for (unsigned int l = 0; l < 3; ++l)
           result[i][j] += T[k][i] * own[k][l] * T[l][j];
   return result;
+}
+
+VoigtMatrix Orthotropy::normal_compliance() const
+{
+  VoigtMatrix result;
+  for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int j = 0; j < 3; ++j)
+      result[i][j] = i == j ? 1 / young[i] : -poisson[i + j - 1] / young[std::min(i, j)];
+  return result;
+}
+
+/** Its columns are the axes. */
+Tensor<2, 3> Orthotropy::frame() const
+{
+  const Tensor<1, 3> first = of_length_one(axes[0]),
+                     third = of_length_one(cross_product_3d(first, of_length_one(axes[1]))),
+                     second = cross_product_3d(third, first);
+  Tensor<2, 3> result;
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    result[d][0] = first[d];
+    result[d][1] = second[d];
+    result[d][2] = third[d];
+  }
+  return result;
+}
+
+bool Orthotropy::has_axes() const
+{
+  return cross_product_3d(of_length_one(axes[0]), of_length_one(axes[1])).norm() > 1e-6;
+}
+
+Voigt<3> Orthotropy::stiffness_in_space() const
+{
+  return turned(turning(frame()), inverse(normal_compliance()),
+                {{shear, shear_across[0], shear_across[1]}});
+}
+
+/** Stresses are turned into the axes, strains back: `T' S T`. */
+Voigt<3> Orthotropy::compliance_in_space() const
+{
+  const Voigt<3> T = turning(transpose(frame()));
+  Voigt<3> transposed;
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int j = 0; j < 6; ++j)
+      transposed[i][j] = T[j][i];
+  return turned(transposed, normal_compliance(),
+                {{1 / shear, 1 / shear_across[0], 1 / shear_across[1]}});
 }
 
 /** `s_3 = E_3 (nu_13/E_1 s_1 + nu_23/E_2 s_2)` where eps_3 = 0. */

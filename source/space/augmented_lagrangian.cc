@@ -22,7 +22,7 @@ AugmentedLagrangian<dim>::AugmentedLagrangian(const PrimalSpace<dim> &space,
                                               const std::vector<ContactVector<dim>> &start)
     : space(space), system(system), matrix(matrix), weights(weights), lambda(start)
 {
-  growth = space.scene.materials[0].modulus() / space.scene.geometry.diameter();
+  growth = space.scene.materials[0].modulus(dim) / space.scene.geometry.diameter();
   for (unsigned int k = 0; k < lambda.size(); ++k)
     lambda[k] = space.contact[k].projected(lambda[k]);
 }

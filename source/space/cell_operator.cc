@@ -23,7 +23,76 @@ using namespace dealii;
 
 namespace
 {
-template <int degree, typename Number>
+/** Moduli of the cells of a batch. */
+template <typename Wide, class Stiffness>
+struct Law;
+
+template <typename Wide>
+struct Law<Wide, IsotropicStiffness>
+{
+  Wide volume, shear;
+
+  void set(const unsigned int v, const IsotropicStiffness &own)
+  {
+    volume[v] = own.volume;
+    shear[v] = own.shear;
+  }
+
+  Tensor<2, 3, Wide> stress(const Tensor<2, 3, Wide> &gradient) const
+  {
+    const Wide pressure = volume * trace(gradient);
+    Tensor<2, 3, Wide> result;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      result[i][i] = 2. * shear * gradient[i][i] + pressure;
+      for (unsigned int j = 0; j < i; ++j)
+        result[i][j] = result[j][i] = shear * (gradient[i][j] + gradient[j][i]);
+    }
+    return result;
+  }
+};
+
+template <typename Wide>
+struct Law<Wide, GeneralStiffness>
+{
+  std::array<Wide, 21> C; ///< the upper triangle, row by row
+
+  static constexpr unsigned int place(const unsigned int i, const unsigned int j)
+  {
+    return i < j ? i * (11 - i) / 2 + j : j * (11 - j) / 2 + i;
+  }
+
+  void set(const unsigned int v, const GeneralStiffness &own)
+  {
+    for (unsigned int i = 0; i < 6; ++i)
+      for (unsigned int j = i; j < 6; ++j)
+        C[place(i, j)][v] = own[i][j];
+  }
+
+  Tensor<2, 3, Wide> stress(const Tensor<2, 3, Wide> &gradient) const
+  {
+    const std::array<Wide, 6> strain{
+        {gradient[0][0], gradient[1][1], gradient[2][2], gradient[0][1] + gradient[1][0],
+         gradient[0][2] + gradient[2][0], gradient[1][2] + gradient[2][1]}};
+    std::array<Wide, 6> sigma;
+    for (unsigned int i = 0; i < 6; ++i)
+    {
+      sigma[i] = C[place(i, 0)] * strain[0];
+      for (unsigned int j = 1; j < 6; ++j)
+        sigma[i] += C[place(i, j)] * strain[j];
+    }
+    Tensor<2, 3, Wide> result;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      result[i][i] = sigma[i];
+      for (unsigned int j = 0; j < i; ++j)
+        result[i][j] = result[j][i] = sigma[2 + i + j];
+    }
+    return result;
+  }
+};
+
+template <int degree, typename Number, class Stiffness>
 class ElasticOperator : public CellOperator<Number>
 {
 public:
@@ -31,23 +100,20 @@ public:
 
   ElasticOperator(const Mapping<3> &mapping, const DoFHandler<3> &dof_handler,
                   const AffineConstraints<Number> &constraints,
-                  const std::vector<IsotropicStiffness> &stiffness)
+                  const std::vector<Stiffness> &stiffness)
   {
     typename Cells::AdditionalData settings;
     settings.tasks_parallel_scheme = Cells::AdditionalData::none;
     settings.mapping_update_flags = update_gradients | update_JxW_values;
     cells.reinit(mapping, dof_handler, constraints, QGauss<1>(degree + 1), settings);
     const bool is_uniform = stiffness.size() == 1;
-    volume.resize(is_uniform ? 1 : cells.n_cell_batches());
-    shear.resize(volume.size());
-    for (unsigned int batch = 0; batch < volume.size(); ++batch)
+    laws.resize(is_uniform ? 1 : cells.n_cell_batches());
+    for (unsigned int batch = 0; batch < laws.size(); ++batch)
       for (unsigned int v = 0; v < Wide::size(); ++v)
       {
         const bool is_cell = !is_uniform && v < cells.n_active_entries_per_cell_batch(batch);
-        const IsotropicStiffness &own =
-            stiffness[is_cell ? cells.get_cell_iterator(batch, v)->material_id() : 0];
-        volume[batch][v] = own.volume;
-        shear[batch][v] = own.shear;
+        laws[batch].set(v,
+                        stiffness[is_cell ? cells.get_cell_iterator(batch, v)->material_id() : 0]);
       }
   }
 
@@ -82,46 +148,35 @@ private:
     {
       values.reinit(batch);
       values.gather_evaluate(x, EvaluationFlags::gradients);
-      const unsigned int own = volume.size() == 1 ? 0 : batch;
+      const Law<Wide, Stiffness> &law = laws[laws.size() == 1 ? 0 : batch];
       for (unsigned int q = 0; q < values.static_n_q_points; ++q)
-      {
-        const auto gradient = values.get_gradient(q);
-        const Wide pressure = volume[own] * trace(gradient);
-        Tensor<2, 3, Wide> stress;
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          stress[i][i] = 2. * shear[own] * gradient[i][i] + pressure;
-          for (unsigned int j = 0; j < i; ++j)
-            stress[i][j] = stress[j][i] = shear[own] * (gradient[i][j] + gradient[j][i]);
-        }
-        values.submit_gradient(stress, q);
-      }
+        values.submit_gradient(law.stress(values.get_gradient(q)), q);
       values.integrate_scatter(EvaluationFlags::gradients, y);
     }
   }
 
   Cells cells;
-  AlignedVector<Wide> volume, shear; ///< by batch of cells; of one material alone: one entry
+  AlignedVector<Law<Wide, Stiffness>> laws; ///< by batch of cells; of one material alone: one entry
 };
 } // namespace
 
-template <typename Number>
+template <typename Number, class Stiffness>
 std::unique_ptr<CellOperator<Number>>
 make_cell_operator(const Mapping<3> &mapping, const DoFHandler<3> &dof_handler,
                    const AffineConstraints<Number> &constraints,
-                   const std::vector<IsotropicStiffness> &stiffness)
+                   const std::vector<Stiffness> &stiffness)
 {
   switch (dof_handler.get_fe().degree)
   {
   case 2:
-    return std::make_unique<ElasticOperator<2, Number>>(mapping, dof_handler, constraints,
-                                                        stiffness);
+    return std::make_unique<ElasticOperator<2, Number, Stiffness>>(mapping, dof_handler,
+                                                                   constraints, stiffness);
   case 3:
-    return std::make_unique<ElasticOperator<3, Number>>(mapping, dof_handler, constraints,
-                                                        stiffness);
+    return std::make_unique<ElasticOperator<3, Number, Stiffness>>(mapping, dof_handler,
+                                                                   constraints, stiffness);
   case 4:
-    return std::make_unique<ElasticOperator<4, Number>>(mapping, dof_handler, constraints,
-                                                        stiffness);
+    return std::make_unique<ElasticOperator<4, Number, Stiffness>>(mapping, dof_handler,
+                                                                   constraints, stiffness);
   default:
     return nullptr;
   }
@@ -133,4 +188,10 @@ make_cell_operator(const Mapping<3> &, const DoFHandler<3> &, const AffineConstr
 template std::unique_ptr<CellOperator<float>>
 make_cell_operator(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<float> &,
                    const std::vector<IsotropicStiffness> &);
+template std::unique_ptr<CellOperator<double>>
+make_cell_operator(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<double> &,
+                   const std::vector<GeneralStiffness> &);
+template std::unique_ptr<CellOperator<float>>
+make_cell_operator(const Mapping<3> &, const DoFHandler<3> &, const AffineConstraints<float> &,
+                   const std::vector<GeneralStiffness> &);
 } // namespace hpvi

@@ -120,7 +120,7 @@ NewtonReport FrictionIteration<dim>::solve(DistributedVector &v,
       space.rests_on_contact) // sliding freely the body would go far: at first all sticks
     for (unsigned int i = 0; i < frictions.size(); ++i)
       x[first + i] =
-          space.scene.materials[0].modulus() * std::sqrt(space.contact[frictions[i]].area);
+          space.scene.materials[0].modulus(dim) * std::sqrt(space.contact[frictions[i]].area);
   take_limits(x, v, lambda);
   NewtonReport report, left = is_cold ? NewtonReport() : newton.measure(v, lambda, settings);
   left.residual = is_cold ? 0.1 : left.residual;

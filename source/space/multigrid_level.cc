@@ -15,20 +15,21 @@ using namespace dealii;
 
 namespace
 {
-std::vector<IsotropicStiffness> stiffness_of_materials(const Scene<3> &scene)
+/** C of a material: column by column the stress of one strain. */
+GeneralStiffness stiffness_of(const Material &material)
 {
-  std::vector<IsotropicStiffness> result;
-  for (const Material &material : scene.materials)
-  {
-    const HookesLaw<3> law(material);
-    const auto unit = [](const unsigned int i, const unsigned int j)
+  const HookesLaw<3> law(material);
+  GeneralStiffness result;
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int l = k; l < 3; ++l)
     {
       Tensor<2, 3> gradient;
-      gradient[i][j] = 1;
-      return gradient;
-    };
-    result.push_back({law.stress(unit(0, 0))[1][1], law.stress(unit(0, 1))[0][1]});
-  }
+      gradient[k][l] = 1;
+      const SymmetricTensor<2, 3> sigma = law.stress(gradient);
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = i; j < 3; ++j)
+          result[voigt<3>(i, j)][voigt<3>(k, l)] = sigma[i][j];
+    }
   return result;
 }
 
@@ -53,6 +54,25 @@ std::unique_ptr<const Mapping<3>> mapping_of(const Triangulation<3> &mesh)
                      });
   return result;
 }
+
+/** Two constants a material where they say all, else 21. */
+template <typename Number>
+std::unique_ptr<CellOperator<Number>> make_cells(const PrimalSpace<3> &space,
+                                                 const AffineConstraints<Number> &constraints)
+{
+  const auto mapping = mapping_of(space.dof_handler.get_triangulation());
+  std::vector<IsotropicStiffness> isotropic;
+  std::vector<GeneralStiffness> general;
+  for (const Material &material : space.scene.materials)
+  {
+    general.push_back(stiffness_of(material));
+    if (!material.orthotropy)
+      isotropic.push_back({general.back()[0][1], general.back()[3][3]});
+  }
+  return isotropic.size() == general.size()
+             ? make_cell_operator(*mapping, space.dof_handler, constraints, isotropic)
+             : make_cell_operator(*mapping, space.dof_handler, constraints, general);
+}
 } // namespace
 
 template <typename Number>
@@ -60,9 +80,7 @@ MultigridLevel<Number>::MultigridLevel(const PrimalSpace<3> &space)
     : space(space), states(space.contact.size())
 {
   constraints.copy_from(space.constraints);
-  const auto mapping = mapping_of(space.dof_handler.get_triangulation());
-  cells = make_cell_operator<Number>(*mapping, space.dof_handler, constraints,
-                                     stiffness_of_materials(space.scene));
+  cells = make_cells<Number>(space, constraints);
   reinit(scratch);
   contact_dofs = std::make_unique<ContactDofTransform<Number>>(space, scratch);
   for (const unsigned int i : cells->constrained())

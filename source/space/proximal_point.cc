@@ -23,7 +23,7 @@ ProximalPoint::ProximalPoint(const PrimalSpace<3> &space, PrimalSystem<3> &syste
       springs(space.contact.size()), centres(space.contact.size())
 {
   const double stiffness =
-      softness * space.scene.materials[0].modulus() / space.scene.geometry.diameter();
+      softness * space.scene.materials[0].modulus(3) / space.scene.geometry.diameter();
   for (unsigned int k = 0; k < springs.size(); ++k)
     springs[k] = stiffness * space.contact[k].area;
   matrix.add_springs(springs);

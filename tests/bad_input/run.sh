@@ -262,6 +262,7 @@ unknown Gravity/g "unknown subsection" '"Body force/Gravity"'
 unknown Adaptivity/Steps '"Adaptivity/Maximum steps"' '"Loading/Steps"'
 unknown Contact/Gap "unknown subsection" "this is an entry" '"Boundary bottom/Contact"'
 unknown Material "this is a subsection, which has Young's modulus, Poisson's ratio, Density, Initial strain, Thermal expansion, Plane, Thickness, Elasticity"
+unknown Material/Axes '"Material/Angle"'
 unknown Material/E1 '"Material/Elasticity" = orthotropic'
 unknown "Material/Fibre angle" '"Material/Angle"'
 unknown Traction '"Boundary left/Traction", "Boundary right/Traction", "Boundary bottom/Traction" or "Boundary top/Traction"'

@@ -127,7 +127,7 @@ Outcome solve(const std::string &file, const Frame &frame)
       {
         const Scene<2> scene = read_scene<2>(file);
         for (const Material &material : scene.materials)
-          outcome.stiffness = std::max(outcome.stiffness, material.modulus() / frame.stress);
+          outcome.stiffness = std::max(outcome.stiffness, material.modulus(2) / frame.stress);
         LoadHistory<2>(scene).run(
             [&](const StepReport<2> &step)
             {

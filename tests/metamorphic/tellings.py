@@ -34,7 +34,7 @@ UNITS = {
     "Shear": (1, 0), "Spring": (1, -1), "Force": (1, 1), "Moment": (1, 2), "Gap": (0, 1), "Closed within": (0, 1), "Friction bound": (1, 0), "Wear coefficient": (-1, 0),
     "Exact solution/Transition": "x", "Exact solution/Length": (0, 1), "Exact solution/Stick length": (0, 1)}
 WITHOUT = """Title Dimension Units/Length Units/Stress Shape Angles Angle Part File Subdivisions Grading=levels Where Poisson's=ratio Poisson's=ratios
-Initial=strain Thermal=expansion Plane Thickness Elasticity Gravity Temperature/Expression Exact=solution/Solution Symmetry Rigid Rotation Contact
+Initial=strain Thermal=expansion Plane Thickness Elasticity Axes Gravity Temperature/Expression Exact=solution/Solution Symmetry Rigid Rotation Contact
 Contact=direction Friction=coefficient Friction=law Curve On Loading/Steps Adapt Until=steady Maximum=cycles Output/Steps VTU Mesh=picture Contact=tables Reference=solution Bound
 Bound=on=distorted=cells Length=unit Mesh=size=from=curvature Curves Surfaces Material Between Law Slave Points""".replace("=", "\0").split()
 UNITS.update({entry.replace("\0", " "): None for entry in WITHOUT})

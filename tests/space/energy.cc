@@ -138,7 +138,9 @@ TEST(BoxBound, HoldsOfFinerMeshes)
       {"without contact",
        cube,
        {{"Boundary bottom/Contact", "none"}, {"Boundary bottom/Gap", ""}},
-       0.25}};
+       0.25},
+      {"fibres askew", [](const Overrides &entries) { return slab(entries); },
+       fibres("1, 2, 0.5; 0, 1, 1"), 0.3}};
   for (const BoundCase &one : cases)
   {
     double J = 0;

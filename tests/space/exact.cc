@@ -39,9 +39,18 @@ TEST(Exact, ConstantStress)
 {
   const double entries[3][3] = {{0.1, 0.02, -0.3}, {0.05, -0.2, 0.07}, {0.11, 0.13, 0.17}};
   const KnownField<3> exact = linear(Tensor<2, 3>(entries), Tensor<1, 3>({0.4, -0.5, 0.6}));
-  for (const unsigned int degree : {2U, 3U})
+  const Orthotropy fibres{{{50, 5, 7}},
+                          {{0.3, 0.2, 0.25}},
+                          3,
+                          0,
+                          {{4, 2}},
+                          {{Tensor<1, 3>({1, 2, -1}), Tensor<1, 3>({0, 1, 3})}}};
+  for (const auto &[degree, is_isotropic] : {std::make_pair(2U, true), std::make_pair(3U, true),
+                                             std::make_pair(2U, false), std::make_pair(3U, false)})
   {
     Scene<3> scene = graded_box(degree);
+    if (!is_isotropic)
+      scene.materials[0].orthotropy = fibres;
     for (const char *const name : {"left", "bottom", "front"})
       prescribe(scene.boundary(name), exact);
     for (auto &boundary : scene.boundaries)

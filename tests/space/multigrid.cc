@@ -28,6 +28,12 @@ Scene<3> two_materials()
                {"Adaptivity/Maximum unknowns", "4000"}});
 }
 
+Scene<3> fibres_beside_another()
+{
+  return slab(fibres("1, 2, 0.5; 0, 1, 1", "Material hard") +
+              Overrides{{"Material hard/Where", "y - 2"}, {"Adaptivity/Maximum unknowns", "4000"}});
+}
+
 /** Steps of a run by @p method, which must not break down. */
 std::vector<Step> steps_by(Scene<3> scene, const LinearMethod method)
 {
@@ -71,6 +77,7 @@ TEST(Multigrid, KnowsPressuresAndMaterials)
   expect_same_steps(dome());
   expect_same_steps(dome("6, 2, 6"));
   expect_same_steps(two_materials());
+  expect_same_steps(fibres_beside_another());
 }
 
 /** Calls @p look with the space of the last mesh, which has hanging nodes. */
@@ -95,7 +102,7 @@ void randomise(Vector &v, std::mt19937 &random)
 TEST(Multigrid, HasProductsAndBlocksOfTheMatrix)
 {
   std::mt19937 random;
-  for (const Scene<3> &scene : {dome(), two_materials()})
+  for (const Scene<3> &scene : {dome(), two_materials(), fibres_beside_another()})
     on_last_mesh(scene,
                  [&](const PrimalSpace<3> &space)
                  {

@@ -234,6 +234,57 @@ INSTANTIATE_TEST_SUITE_P(
              {"Boundary top/Traction", "0; -0.5; 0"}}}),
     [](const auto &info) { return std::string(info.param.name); });
 
+/** Fibres at 30 degrees in planes of constant z; G13 and G23 are nobody's there. */
+const Overrides wood{{"Material/Elasticity", "orthotropic"},
+                     {"Material/Young's modulus", ""},
+                     {"Material/Poisson's ratio", ""},
+                     {"Material/Young's moduli", "2000, 100, 150"},
+                     {"Material/Poisson's ratios", "0.3, 0.2, 0.25"}},
+    wood_in_plane{{"Material/Shear moduli", "20"}, {"Material/Angle", "30"}},
+    wood_in_space{{"Material/Shear moduli", "20, 40, 50"},
+                  {"Material/Axes", "1.7320508075688772, 1, 0; 0, 3, 0"}};
+
+Row of_wood(const char *const name, const Overrides &both, const Overrides &plane,
+            const Overrides &space)
+{
+  return {name, wood + both, wood_in_plane + plane, wood_in_space + space};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Orthotropy, PlaneEntries,
+    ::testing::Values(
+        Row{"along_the_cells",
+            wood,
+            {pushed_in_plane, {"Material/Shear moduli", "20"}},
+            {pushed_in_space, {"Material/Shear moduli", "20, 40, 50"}}},
+        of_wood("askew", {}, pushed_in_plane, pushed_in_space),
+        of_wood("factorised", {{"Solver/Linear", "direct"}}, pushed_in_plane, pushed_in_space),
+        of_wood("algebraic_multigrid", {}, pushed_in_plane,
+                {pushed_in_space, {"Solver/Linear", "amg"}}),
+        of_wood("axis_3_in_the_plane",
+                {{"Material/Young's moduli", "2000, 150, 100"},
+                 {"Material/Poisson's ratios", "0.3, 0.3, 0.2"}},
+                {pushed_in_plane,
+                 {"Material/Young's moduli", "2000, 100, 150"},
+                 {"Material/Poisson's ratios", "0.3, 0.3, 0.13333333333333333"}},
+                {pushed_in_space,
+                 {"Material/Shear moduli", "40, 20, 50"},
+                 {"Material/Axes", "1.7320508075688772, 1, 0; 0, 0, -1"}}),
+        of_wood("heat", heated("10 + 3*x*y - y^2"), pushed_in_plane, pushed_in_space),
+        of_wood("initial_strain", {},
+                {{"Material/Initial strain", "0.01*x*y; 0.02*y; 0.004*x^2; 0.01*x"}},
+                {{"Material/Initial strain", "0.01*x*y; 0.02*y; 0.01*x; 0.004*x^2; 0; 0"}}),
+        of_wood("beside_another_material",
+                {{"Material steel/Where", "y - 2"},
+                 {"Material steel/Elasticity", "isotropic"},
+                 {"Material steel/Young's modulus", "1500"},
+                 {"Material steel/Poisson's ratio", "0.3"}},
+                pushed_in_plane, pushed_in_space),
+        of_wood("history_with_friction", rough_bottom(heated("20*t")),
+                {{"Boundary top/Traction", "0.3*t; -0.5"}},
+                {{"Boundary top/Traction", "0.3*t; -0.5; 0"}})),
+    [](const auto &info) { return std::string(info.param.name); });
+
 /** Hexahedra that are no boxes, of a body that nothing holds but what it would do by itself. */
 Scene<3> free_foot(const Overrides &entries)
 {

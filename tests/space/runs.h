@@ -39,6 +39,18 @@ struct Step
   unsigned int n_pressing = 0;
 };
 
+/** A material of @p section whose axis 1 is twenty times as stiff as the others, by Axes. */
+inline Overrides fibres(const std::string &axes, const std::string &section = "Material")
+{
+  return {{section + "/Elasticity", "orthotropic"},
+          {section + "/Young's modulus", ""},
+          {section + "/Poisson's ratio", ""},
+          {section + "/Young's moduli", "2000, 100, 150"},
+          {section + "/Poisson's ratios", "0.3, 0.2, 0.25"},
+          {section + "/Shear moduli", "30, 40, 50"},
+          {section + "/Axes", axes}};
+}
+
 template <int dim>
 using Look = std::function<void(const StepReport<dim> &)>;
 

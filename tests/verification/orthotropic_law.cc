@@ -28,19 +28,14 @@ Compliance own_compliance(const Orthotropy &m)
     S[i][j][i][j] = S[i][j][j][i] = S[j][i][i][j] = S[j][i][j][i] = 1 / (4 * G);
   };
   set(0, 1, m.poisson[0], m.shear);
-  set(0, 2, m.poisson[1], 1.); // nobody asks for G_13 and G_23
-  set(1, 2, m.poisson[2], 1.);
+  set(0, 2, m.poisson[1], m.shear_across[0]); // nobody asks for these in the plane
+  set(1, 2, m.poisson[2], m.shear_across[1]);
   return S;
 }
 
-Compliance turned(const Compliance &S, const double degrees)
+/** In the frame in which its axes are the columns of @p R. */
+Compliance turned(const Compliance &S, const Tensor<2, 3> &R)
 {
-  const double angle = degrees * numbers::PI / 180;
-  Tensor<2, 3> R; // columns: the axes
-  R[0][0] = R[1][1] = std::cos(angle);
-  R[1][0] = std::sin(angle);
-  R[0][1] = -R[1][0];
-  R[2][2] = 1;
   Compliance result;
   for (unsigned int n = 0; n < 6561; ++n)
   {
@@ -51,6 +46,17 @@ Compliance turned(const Compliance &S, const double degrees)
         R[digit(3)][digit(7)] * S[digit(4)][digit(5)][digit(6)][digit(7)];
   }
   return result;
+}
+
+Compliance turned(const Compliance &S, const double degrees)
+{
+  const double angle = degrees * numbers::PI / 180;
+  Tensor<2, 3> R;
+  R[0][0] = R[1][1] = std::cos(angle);
+  R[1][0] = std::sin(angle);
+  R[0][1] = -R[1][0];
+  R[2][2] = 1;
+  return turned(S, R);
 }
 
 /** Strain in the plane of a stress there, and the stress across it that keeps eps_zz = 0 in plane strain. */
@@ -83,12 +89,12 @@ public:
     return std::uniform_real_distribution<double>(low, high)(random);
   }
 
-  template <int rank>
-  Tensor<rank, 2> tensor()
+  template <int rank, int dim = 2>
+  Tensor<rank, dim> tensor()
   {
-    Tensor<rank, 2> result;
-    for (unsigned int i = 0; i < Tensor<rank, 2>::n_independent_components; ++i)
-      result[Tensor<rank, 2>::unrolled_to_component_indices(i)] = (*this)(-1, 1);
+    Tensor<rank, dim> result;
+    for (unsigned int i = 0; i < Tensor<rank, dim>::n_independent_components; ++i)
+      result[Tensor<rank, dim>::unrolled_to_component_indices(i)] = (*this)(-1, 1);
     return result;
   }
 
@@ -106,6 +112,8 @@ public:
       }
       own.shear = std::pow(10, (*this)(-1.5, 1.));
       own.angle = (*this)(-360, 360);
+      own.shear_across = {{std::pow(10, (*this)(-1.5, 1.)), std::pow(10, (*this)(-1.5, 1.))}};
+      own.axes = {{tensor<1, 3>(), tensor<1, 3>()}};
       result.orthotropy = own;
     } while (result.orthotropy->flaw(PlaneModel::strain));
     return result;
@@ -125,9 +133,20 @@ void for_each_material(const Test &test)
 }
 
 /** How much may be lost: the law is C, the inverse of S. */
-double tolerance(const Material &material)
+double tolerance(const Material &material, const int dim = 2)
 {
-  return 1e-13 * (1 + material.locking_ratio(2));
+  return 1e-13 * (1 + material.locking_ratio(dim));
+}
+
+/** Axis 1, what is left of the second vector, and what is at right angles to both. */
+Tensor<2, 3> frame_of(const std::array<Tensor<1, 3>, 2> &axes)
+{
+  const Tensor<1, 3> first = axes[0] / axes[0].norm(), rest = axes[1] - (axes[1] * first) * first,
+                     second = rest / rest.norm(), third = cross_product_3d(first, second);
+  Tensor<2, 3> R;
+  for (unsigned int d = 0; d < 3; ++d)
+    R[d] = Tensor<1, 3>({first[d], second[d], third[d]});
+  return R;
 }
 } // namespace
 
@@ -193,39 +212,75 @@ TEST(OrthotropicLaw, AgreesWithItself)
       });
 }
 
+namespace
+{
+template <int dim>
+void expect_stiffness_and_divergence(const Material &material, Dice &dice)
+{
+  const HookesLaw<dim> law(material);
+  const Tensor<1, dim> phi = dice.tensor<1, dim>(), psi = dice.tensor<1, dim>(); // gradients
+  for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      Tensor<2, dim> one, other;
+      one[c] = phi;
+      other[d] = psi;
+      EXPECT_NEAR(law.stiffness([&](const unsigned int a, const unsigned int b)
+                                { return phi[a] * psi[b]; },
+                                c, d),
+                  law.stress(one) * symmetrize(other), 1e-13 * law.stress(one).norm());
+    }
+  Tensor<3, dim> second = dice.tensor<3, dim>();
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      for (unsigned int k = 0; k < j; ++k)
+        second[i][j][k] = second[i][k][j];
+  Tensor<1, dim> expected;
+  for (unsigned int k = 0; k < dim; ++k) // d sigma/d x_k e_k
+  {
+    Tensor<2, dim> slope;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        slope[i][j] = second[i][j][k];
+    for (unsigned int i = 0; i < dim; ++i)
+      expected[i] += law.stress(slope)[i][k];
+  }
+  EXPECT_LT((law.divergence_of_stress(second) - expected).norm(),
+            1e-12 * expected.norm() + tolerance(material, dim));
+}
+
+template <int dim>
+void expect_extreme_stiffnesses(const Material &material, Dice &dice)
+{
+  const HookesLaw<dim> law(material);
+  const double c = material.coercivity(dim), most = c * (1 + material.locking_ratio(dim));
+  double least = std::numeric_limits<double>::max(), largest = 0;
+  SymmetricTensor<2, dim> softest = symmetrize(dice.tensor<2, dim>()), stiffest = softest;
+  for (unsigned int k = 0; k < 400; ++k) // power iterations
+  {
+    stiffest = law.stress(Tensor<2, dim>(stiffest));
+    stiffest /= stiffest.norm();
+    softest = most * softest - law.stress(Tensor<2, dim>(softest));
+    softest /= softest.norm();
+    for (const auto &strain : {stiffest, softest})
+    {
+      least = std::min(least, law.energy_product(Tensor<2, dim>(strain)));
+      largest = std::max(largest, law.energy_product(Tensor<2, dim>(strain)));
+    }
+  }
+  EXPECT_GE(least, c * (1 - 1e-12) - 1e-14 * most);
+  EXPECT_LE(least, 1.3 * c + 1e-2 * most);
+  EXPECT_NEAR(largest, most, 1e-2 * most);
+}
+} // namespace
+
 TEST(OrthotropicLaw, StiffnessAndDivergenceAreThoseOfItsStress)
 {
   for_each_material(
       [](const Material &material, Dice &dice)
       {
-        const HookesLaw<2> law(material);
-        const Tensor<1, 2> phi = dice.tensor<1>(), psi = dice.tensor<1>(); // gradients
-        for (unsigned int c = 0; c < 2; ++c)
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            Tensor<2, 2> one, other;
-            one[c] = phi;
-            other[d] = psi;
-            EXPECT_NEAR(law.stiffness([&](const unsigned int a, const unsigned int b)
-                                      { return phi[a] * psi[b]; },
-                                      c, d),
-                        law.stress(one) * symmetrize(other), 1e-13 * law.stress(one).norm());
-          }
-        Tensor<3, 2> second = dice.tensor<3>();
-        for (unsigned int i = 0; i < 2; ++i)
-          second[i][1][0] = second[i][0][1];
-        Tensor<1, 2> expected;
-        for (unsigned int k = 0; k < 2; ++k) // d sigma/d x_k e_k
-        {
-          Tensor<2, 2> slope;
-          for (unsigned int i = 0; i < 2; ++i)
-            for (unsigned int j = 0; j < 2; ++j)
-              slope[i][j] = second[i][j][k];
-          for (unsigned int i = 0; i < 2; ++i)
-            expected[i] += law.stress(slope)[i][k];
-        }
-        EXPECT_LT((law.divergence_of_stress(second) - expected).norm(),
-                  1e-12 * expected.norm() + tolerance(material));
+        expect_stiffness_and_divergence<2>(material, dice);
+        expect_stiffness_and_divergence<3>(material, dice);
       });
 }
 
@@ -235,25 +290,28 @@ TEST(OrthotropicLaw, CoercivityIsTheLeastStiffness)
   for_each_material(
       [](const Material &material, Dice &dice)
       {
-        const HookesLaw<2> law(material);
-        const double c = material.coercivity(2), most = c * (1 + material.locking_ratio(2));
-        double least = std::numeric_limits<double>::max(), largest = 0;
-        SymmetricTensor<2, 2> softest = symmetrize(dice.tensor<2>()), stiffest = softest;
-        for (unsigned int k = 0; k < 400; ++k) // power iterations
-        {
-          stiffest = law.stress(Tensor<2, 2>(stiffest));
-          stiffest /= stiffest.norm();
-          softest = most * softest - law.stress(Tensor<2, 2>(softest));
-          softest /= softest.norm();
-          for (const auto &strain : {stiffest, softest})
-          {
-            least = std::min(least, law.energy_product(Tensor<2, 2>(strain)));
-            largest = std::max(largest, law.energy_product(Tensor<2, 2>(strain)));
-          }
-        }
-        EXPECT_GE(least, c * (1 - 1e-12) - 1e-14 * most);
-        EXPECT_LE(least, 1.3 * c + 1e-2 * most);
-        EXPECT_NEAR(largest, most, 1e-2 * most);
+        expect_extreme_stiffnesses<2>(material, dice);
+        expect_extreme_stiffnesses<3>(material, dice);
+      });
+}
+
+TEST(OrthotropicLaw, InSpaceIsTheTurnedTensor)
+{
+  for_each_material(
+      [](const Material &material, Dice &dice)
+      {
+        const Compliance S =
+            turned(own_compliance(*material.orthotropy), frame_of(material.orthotropy->axes));
+        const SymmetricTensor<2, 3> sigma = symmetrize(dice.tensor<2, 3>()),
+                                    other = symmetrize(dice.tensor<2, 3>());
+        const Tensor<2, 3> strain = double_contract<2, 0, 3, 1>(S, Tensor<2, 3>(sigma));
+        const HookesLaw<3> law(material);
+        const double small = tolerance(material, 3);
+        EXPECT_LT((law.stress(strain) - sigma).norm(), small);
+        EXPECT_NEAR(law.energy_product(strain), scalar_product(strain, sigma),
+                    small * strain.norm());
+        EXPECT_NEAR(law.complementary_product(sigma, other), scalar_product(strain, other),
+                    1e-13 * strain.norm());
       });
 }
 
@@ -297,7 +355,7 @@ TEST(OrthotropicLaw, EqualModuliAreIsotropic)
       same.orthotropy = Orthotropy{{{3, 3, 3}}, {{nu, nu, nu}}, isotropic.mu(), 33.};
       ASSERT_FALSE(same.flaw());
       EXPECT_NEAR(same.residual_weight(), isotropic.residual_weight(), 1e-14);
-      EXPECT_NEAR(same.modulus(), isotropic.modulus(), 1e-14);
+      EXPECT_NEAR(same.modulus(2), isotropic.modulus(2), 1e-14);
       EXPECT_NEAR(same.coercivity(2), isotropic.coercivity(2), 1e-12);
       const double ratio = isotropic.locking_ratio(2);
       EXPECT_NEAR(same.locking_ratio(2), nu < 0 ? -ratio / (1 + ratio) : ratio,
@@ -306,6 +364,12 @@ TEST(OrthotropicLaw, EqualModuliAreIsotropic)
       const SymmetricTensor<2, 2> sigma = HookesLaw<2>(isotropic).stress(gradient);
       EXPECT_LT((HookesLaw<2>(same).stress(gradient) - sigma).norm(), 1e-12 * sigma.norm());
       EXPECT_NEAR(von_mises<2>(same, sigma), von_mises<2>(isotropic, sigma), 1e-12 * sigma.norm());
+      same.orthotropy->shear_across = {{isotropic.mu(), isotropic.mu()}};
+      same.orthotropy->axes = {{dice.tensor<1, 3>(), dice.tensor<1, 3>()}};
+      EXPECT_NEAR(same.coercivity(3), isotropic.coercivity(3), 1e-12);
+      const Tensor<2, 3> in_space = dice.tensor<2, 3>();
+      const SymmetricTensor<2, 3> stress = HookesLaw<3>(isotropic).stress(in_space);
+      EXPECT_LT((HookesLaw<3>(same).stress(in_space) - stress).norm(), 1e-12 * stress.norm());
       const PlaneStrain heated{{0.1, 0.1, 0, 0.1}};
       EXPECT_LT((same.in_plane(heated) - isotropic.in_plane(heated)).norm(), 1e-14);
     }
@@ -322,6 +386,19 @@ TEST(OrthotropicLaw, QuarterTurnsAreExact)
     EXPECT_EQ(S[0][2], 0.);
     EXPECT_EQ(S[1][2], 0.);
     EXPECT_EQ(S[0][0] < S[1][1], std::fmod(angle, 180.) == 0.);
+  }
+  for (const double length : {1e-150, 3., 1e150}) // axis 1 along -z, 2 along x, 3 along -y
+  {
+    material.orthotropy->axes = {{Tensor<1, 3>({0, 0, -length}), Tensor<1, 3>({length, 0, 0.})}};
+    const Voigt<3> S = material.orthotropy->compliance_in_space();
+    EXPECT_EQ(S[2][2], 1. / 7);
+    EXPECT_EQ(S[0][0], 1. / 2);
+    EXPECT_EQ(S[1][1], 1. / 3);
+    EXPECT_EQ(S[0][2], -0.3 / 7);
+    EXPECT_EQ(S[4][4], 1 / 1.3);
+    for (unsigned int k = 3; k < 6; ++k)
+      for (unsigned int l = 0; l < k; ++l)
+        EXPECT_EQ(S[k][l], 0.);
   }
 }
 
@@ -368,4 +445,8 @@ TEST(OrthotropicLaw, CodeMayNotSayWhatNoFileMay)
   EXPECT_EQ(flaw({{{1, 2, 3}}, {{0.1, no_number, 0.1}}, 1, 0}), "Poisson's ratios");
   EXPECT_EQ(flaw({{{1, 2, 3}}, {{0.1, 0.1, 0.1}}, 0, 0}), "Shear moduli");
   EXPECT_EQ(flaw({{{1, 2, 3}}, {{0.1, 0.1, 0.1}}, 1, no_number}), "Angle");
+  EXPECT_EQ(flaw({{{1, 2, 3}}, {{0.1, 0.1, 0.1}}, 1, 0, {{1, -1}}}), "Shear moduli");
+  const Tensor<1, 3> axis({1e-90, 2e-90, 0});
+  EXPECT_EQ(flaw({{{1, 2, 3}}, {{0.1, 0.1, 0.1}}, 1, 0, {{1, 1}}, {{axis, -3e80 * axis}}}), "Axes");
+  EXPECT_EQ(flaw({{{1, 2, 3}}, {{0.1, 0.1, 0.1}}, 1, 0, {{1, 1}}, {{axis, 0. * axis}}}), "Axes");
 }

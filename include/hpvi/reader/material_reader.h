@@ -20,10 +20,10 @@ Material read_material(const Parameters &parameters, int dim, const std::string 
 PlaneModel plane_model(const std::string &word);
 
 /**
- * Sets @p material.orthotropy where its section says so, or the unnamed one whose entries it inherits. Its plane is known.
- * Refuses numbers that are missing and entries of the other kind of elasticity beside its own.
+ * Sets @p material.orthotropy where its section says so, or the unnamed one whose entries it inherits. Its plane is known where
+ * @p dim is 2. Refuses numbers that are missing and entries of the other kind of elasticity beside its own.
  */
-void read_elasticity(const Parameters &parameters, Material &material);
+void read_elasticity(const Parameters &parameters, int dim, Material &material);
 } // namespace hpvi
 
 #endif

@@ -34,7 +34,7 @@ struct Material
   PlaneModel plane = PlaneModel::strain;  ///< used in two dimensions only
   double density = 0;                     ///< mass per volume, what gravity acts on
   std::string name{};                     ///< of its section; empty: the unnamed one
-  std::optional<Orthotropy> orthotropy{}; ///< in the place of E and nu, in the plane
+  std::optional<Orthotropy> orthotropy{}; ///< in the place of E and nu
 
   /** Shear modulus `mu = E/(2(1+nu))`; (2.9) prints E/(1+nu), which contradicts Hooke's law. */
   double mu() const
@@ -58,8 +58,8 @@ struct Material
     return orthotropy ? orthotropy->shear : mu();
   }
 
-  /** Stress over strain of a bar [stress]. */
-  double modulus() const;
+  /** Stress over strain of a bar [stress], along the stiffest axis in the plane or in space. */
+  double modulus(int dim) const;
 
   /**
    * How much stiffer against changes of volume, or along fibres, than against shear: low degrees lock where it is large.
@@ -71,10 +71,10 @@ struct Material
   std::string locking_in_words(int dim) const;
 
   /** For messages: "Young's modulus 210000". */
-  std::string stiffness_in_words() const;
+  std::string stiffness_in_words(int dim) const;
 
   /** As in "Young's modulus 200 MPa, Poisson's ratio 0.3"; for @p unit "" without. */
-  std::string elasticity_in_words(const std::string &unit) const;
+  std::string elasticity_in_words(const std::string &unit, int dim) const;
 
   /** sigma_zz of a plane stress or strain with @p sigma in the plane [stress] and the initial strain e33 across it: in an
    * axisymmetric body less its hoop strain. */
@@ -137,10 +137,17 @@ public:
       : is_isotropic(!material.orthotropy), lambda(is_isotropic ? material.lambda(dim) : 0.),
         mu(is_isotropic ? material.mu() : 0.)
   {
-    if (!is_isotropic)
+    if (is_isotropic)
+      return;
+    if constexpr (dim == 2)
     {
       S = material.orthotropy->compliance(material.plane);
       C = inverse(S);
+    }
+    else
+    {
+      S = material.orthotropy->compliance_in_space();
+      C = material.orthotropy->stiffness_in_space();
     }
   }
 
@@ -269,10 +276,9 @@ public:
   }
 
 private:
-  /** Of a component in a VoigtMatrix; orthotropic materials are those of the plane. */
   static unsigned int voigt(const unsigned int i, const unsigned int j)
   {
-    return i == j ? i % 2 : 2;
+    return hpvi::voigt<dim>(i, j);
   }
 
   dealii::SymmetricTensor<2, dim> general_stress(const dealii::Tensor<2, dim> &gradient) const
@@ -288,7 +294,7 @@ private:
 
   const bool is_isotropic;
   const double lambda, mu;
-  VoigtMatrix C{}, S{}; ///< of others
+  Voigt<dim> C{}, S{}; ///< of others
 };
 } // namespace hpvi
 

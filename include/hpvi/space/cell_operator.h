@@ -7,6 +7,7 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct IsotropicStiffness
 {
   double volume, shear;
 };
+
+/** Of `sigma_i = sum_j C_ij eps_j` [stress], the components xx, yy, zz, xy, xz, yz, strains twice the last three. */
+using GeneralStiffness = std::array<std::array<double, 6>, 6>;
 
 /**
  * Products with the stiffness matrix `int sigma(u) : eps(v)` of nodal values in space without the matrix, cell by cell by
@@ -48,14 +52,15 @@ inline bool has_cell_operator(const unsigned int degree)
 }
 
 /**
- * Of FE_Q of this degree; @p stiffness by material id; @p mapping of cells. @p dof_handler must outlive it. Collective. Null where
- * the degree is none of has_cell_operator().
+ * Of FE_Q of this degree; @p stiffness by material id, IsotropicStiffness or GeneralStiffness, which take two and 21
+ * constants of a material to each point; @p mapping of cells. @p dof_handler must outlive it. Collective. Null where the degree is
+ * none of has_cell_operator().
  */
-template <typename Number>
+template <typename Number, class Stiffness>
 std::unique_ptr<CellOperator<Number>>
 make_cell_operator(const dealii::Mapping<3> &mapping, const dealii::DoFHandler<3> &dof_handler,
                    const dealii::AffineConstraints<Number> &constraints,
-                   const std::vector<IsotropicStiffness> &stiffness);
+                   const std::vector<Stiffness> &stiffness);
 } // namespace hpvi
 
 #endif

@@ -200,13 +200,11 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
                          "; give automatic, amg or direct",
                      "multigrid"};
   for (const Material &material : scene.materials)
-    if (material.orthotropy)
-      return Objection{
-          section_of_material(material.name), "Elasticity",
-          "is not offered by " + why +
-              (dim == 3 ? "; give Young's modulus and Poisson's ratio"
-                        : "; run the reduced path on one process, or give an isotropic material"),
-          "orthotropic"};
+    if (dim == 2 && material.orthotropy)
+      return Objection{section_of_material(material.name), "Elasticity",
+                       "is not offered by " + why +
+                           "; run the reduced path on one process, or give an isotropic material",
+                       "orthotropic"};
   if (scene.is_axisymmetric())
     return Objection{"Material", "Plane",
                      "is not offered by " + why + "; run the reduced path on one process",
