@@ -120,22 +120,20 @@ std::vector<Entry> boundary_entries(const std::string &boundary)
 
 namespace
 {
-/** What `exact` stands for on @p boundary; nothing in space, where no closed form is offered. */
+/** What `exact` stands for on @p boundary. */
 template <int dim>
 std::array<typename ExpressionReader<dim>::ExactField, 2>
 exact_displacement_and_traction(const Scene<dim> &scene, const unsigned int boundary)
 {
-  if constexpr (dim == 2)
-    if (scene.exact_solution != nullptr)
-      return {{[&scene](const unsigned int c)
-               { return std::make_shared<ExactDisplacement<2>>(scene.exact_solution, c); },
-               [&scene, boundary](const unsigned int c)
-               {
-                 return std::make_shared<ExactTraction<2>>(scene.exact_solution, scene.materials[0],
+  if (scene.exact_solution != nullptr)
+    return {{[&scene](const unsigned int c)
+             { return std::make_shared<ExactDisplacement<dim>>(scene.exact_solution, c); },
+             [&scene, boundary](const unsigned int c)
+             {
+               return std::make_shared<ExactTraction<dim>>(scene.exact_solution, scene.materials[0],
                                                            sides_of(scene.geometry)[boundary], c);
-               }}};
+             }}};
   const auto none = [](const unsigned int) { return nullptr; };
-  (void)scene, (void)boundary;
   return {{none, none}};
 }
 

@@ -181,7 +181,6 @@ std::vector<Alias> hints_in_space()
            "probe in space has no disc"},
           {{"shear"}, "space has two tangents; write \"Boundary top/Traction\" = Gx; Gy"},
           {{"corners"}, "space has no shape but the box; remove it"},
-          {{"exact solution"}, "space offers no closed form; remove it"},
           {{"qp solver", "qp warm start", "qp tolerance", "qp maximum multiplications",
             "diagonal scaling", "coulomb solver", "check uniqueness"},
            "only the reduced path of the plane has it; remove it"},

@@ -11,6 +11,7 @@
 #include <hpvi/reader/body_reader.h>
 #include <hpvi/reader/boundary_reader.h>
 #include <hpvi/reader/closed_forms/closed_form.h>
+#include <hpvi/reader/closed_forms/plane_field.h>
 #include <hpvi/reader/input/expressions.h>
 #include <hpvi/reader/input/parameters.h>
 #include <hpvi/reader/pretension_reader.h>
@@ -130,37 +131,40 @@ struct ReadValue
 // ---------------------------------------------------------------- the exact solution
 
 /** The value of a friction bound that is the same all along @p side; NaN if it is not. */
-double constant_friction_bound(const Parameters &parameters, const ExpressionReader<2> &expressions,
-                               const std::string &boundary, const Side<2> &side)
+template <int dim>
+double constant_friction_bound(const Parameters &parameters,
+                               const ExpressionReader<dim> &expressions,
+                               const std::string &boundary, const Side<dim> &side)
 {
-  const std::vector<Point<2>> points = side.sample();
+  const std::vector<Point<dim>> points = side.sample();
   const auto bound = expressions.read_friction(boundary, points).bound;
   if (bound == nullptr || parameters.text(boundary, "Contact") == "none")
     return 0.;
   const double value = bound->value(points[0]);
   const bool constant =
       std::all_of(points.begin(), points.end(),
-                  [&](const Point<2> &point) { return bound->value(point) == value; });
+                  [&](const Point<dim> &point) { return bound->value(point) == value; });
   return constant ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/** Every one of them slides along a side of the body, on y = 0. */
-std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &parameters,
-                                                            const ExpressionReader<2> &expressions,
-                                                            const Scene<2> &scene)
+/** Every one of them slides along a side of the body, on y = 0; in space it is plane strain. */
+template <int dim>
+std::shared_ptr<const ExactSolution<dim>>
+read_exact_solution(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+                    const Scene<dim> &scene)
 {
   const std::string solution = parameters.text("Exact solution", "Solution");
   const auto form = std::find_if(closed_forms().begin(), closed_forms().end(),
                                  [&](const ClosedForm &one) { return one.name == solution; });
   if (form == closed_forms().end())
     return nullptr;
-  const auto is_below = [](const Side<2> &side)
+  const auto is_below = [](const Side<dim> &side)
   {
-    const std::vector<Point<2>> points = side.sample();
+    const std::vector<Point<dim>> points = side.sample();
     return std::all_of(points.begin(), points.end(),
-                       [&](const Point<2> &x) { return x[1] == 0. && side.normal(x)[1] <= 0; });
+                       [&](const Point<dim> &x) { return x[1] == 0. && side.normal(x)[1] <= 0; });
   };
-  const std::vector<Side<2>> sides = sides_of(scene.geometry);
+  const std::vector<Side<dim>> sides = sides_of(scene.geometry);
   const auto side = std::find_if(sides.begin(), sides.end(), is_below);
   if (side == sides.end())
     parameters.reject("Exact solution", "Solution",
@@ -168,7 +172,11 @@ std::shared_ptr<const ExactSolution<2>> read_exact_solution(const Parameters &pa
   const std::string boundary = "Boundary " + scene.boundaries[side - sides.begin()].name;
   const auto bound = [&]()
   { return constant_friction_bound(parameters, expressions, boundary, *side); };
-  return form->read({parameters, scene.materials[0], boundary, bound});
+  const auto in_plane = form->read({parameters, scene.materials[0], boundary, bound});
+  if constexpr (dim == 2)
+    return in_plane;
+  else
+    return std::make_shared<const PlaneField>(in_plane);
 }
 
 // ---------------------------------------------------------------- the rest
@@ -217,7 +225,7 @@ bool names_no_end(const Parameters &parameters)
                       [&](const std::string &limit)
                       { return parameters.is_named("Adaptivity", limit); }) &&
          parameters.text("Loading", "Steps").empty() &&
-         (is_in_space(parameters) || parameters.text("Exact solution", "Solution") == "none") &&
+         parameters.text("Exact solution", "Solution") == "none" &&
          parameters.text("Error", "Reference solution").empty() &&
          !parameters.boolean("Output", "Reference solution");
 }
@@ -378,12 +386,11 @@ Scene<dim> read_problem(const std::shared_ptr<const Parameters> &parameters, con
   read_method(*parameters, scene);
   read_body_force(*parameters, t, scene);
   read_initial_strains(*parameters, t, scene);
-  if constexpr (dim == 2)
-    scene.exact_solution =
-        read_exact_solution(*parameters,
-                            ExpressionReader<2>(*parameters, constants_of(scene.materials[0], t),
+  scene.exact_solution =
+      read_exact_solution(*parameters,
+                          ExpressionReader<dim>(*parameters, constants_of(scene.materials[0], t),
                                                 remark_on_constants(scene.materials[0])),
-                            scene);
+                          scene);
   check_covered_sides(*parameters, scene);
   for (BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.pair)

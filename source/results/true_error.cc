@@ -108,16 +108,69 @@ struct FlatFace
     }
     normal = map.normal(face_no, point_on_face<dim>(face_no, middle));
   }
-
-  CellMap<dim - 1> map() const ///< in coordinates along its edges
-  {
-    typename CellMap<dim - 1>::Vertices vertices;
-    for (unsigned int v = 0; v < vertices.size(); ++v)
-      for (unsigned int s = 0; s < dim - 1; ++s)
-        vertices[v][s] = (v >> s) & 1 ? edges[s].norm() : 0.;
-    return CellMap<dim - 1>(vertices);
-  }
 };
+
+/** All of the direction @p d more. */
+template <int k>
+BoundingBox<k> stretched(const BoundingBox<k - 1> &box, const unsigned int d)
+{
+  std::pair<Point<k>, Point<k>> corners;
+  corners.second[d] = 1;
+  for (unsigned int i = 0; i + 1 < k; ++i)
+  {
+    corners.first[i < d ? i : i + 1] = box.lower_bound(i);
+    corners.second[i < d ? i : i + 1] = box.upper_bound(i);
+  }
+  return BoundingBox<k>(corners);
+}
+
+/**
+ * Boxes of a cell or face with these @p edges at right angles, graded towards singular points. In space those are lines along
+ * z, and boxes are as long as an edge along z.
+ */
+template <std::size_t k, int dim>
+std::vector<BoundingBox<int(k)>>
+graded_along(const Point<dim> &origin, const std::array<Tensor<1, dim>, k> &edges,
+             const std::vector<Point<dim>> &singular, const unsigned int levels)
+{
+  if constexpr (dim == 3 && k > 1)
+    for (unsigned int d = 0; d < k; ++d)
+      if (std::abs(edges[d][2]) > 0.5 * edges[d].norm())
+      {
+        std::array<Tensor<1, dim>, k - 1> others;
+        std::copy(edges.begin(), edges.begin() + d, others.begin());
+        std::copy(edges.begin() + d + 1, edges.end(), others.begin() + d);
+        std::vector<BoundingBox<int(k)>> result;
+        for (const auto &box : graded_along(origin, others, singular, levels))
+          result.push_back(stretched<int(k)>(box, d));
+        return result;
+      }
+  typename CellMap<int(k)>::Vertices vertices; // in coordinates along the edges
+  for (unsigned int v = 0; v < vertices.size(); ++v)
+    for (unsigned int s = 0; s < k; ++s)
+      vertices[v][s] = (v >> s) & 1 ? edges[s].norm() : 0.;
+  std::vector<Point<int(k)>> along(singular.size());
+  for (unsigned int n = 0; n < along.size(); ++n)
+    for (unsigned int s = 0; s < k; ++s)
+      along[n][s] = (singular[n] - origin) * edges[s] / edges[s].norm();
+  return graded_boxes(CellMap<int(k)>(vertices), along, levels);
+}
+
+std::vector<BoundingBox<2>> graded_cell(const CellMap<2> &map, const ExactSolution<2> &exact,
+                                        const unsigned int levels)
+{
+  return graded_boxes(map, exact.singularities(), levels);
+}
+
+std::vector<BoundingBox<3>> graded_cell(const CellMap<3> &map, const ExactSolution<3> &exact,
+                                        const unsigned int levels)
+{
+  const Point<3> origin = map.point(Point<3>());
+  std::array<Tensor<1, 3>, 3> edges;
+  for (unsigned int d = 0; d < 3; ++d)
+    edges[d] = map.point(Point<3>::unit_vector(d)) - origin;
+  return graded_along(origin, edges, exact.singularities(), levels);
+}
 
 /** int f(reference, x) over @p face, graded towards singular points of @p exact. */
 template <int dim, class F>
@@ -127,17 +180,10 @@ double integrate_over(const FlatFace<dim> &face, const ExactSolution<dim> &exact
   double area = 1;
   for (const Tensor<1, dim> &edge : face.edges)
     area *= edge.norm();
-  std::vector<Point<dim - 1>> singular;
-  for (const Point<dim> &x : exact.singularities())
-  {
-    Point<dim - 1> along;
-    for (unsigned int s = 0; s < dim - 1; ++s)
-      along[s] = (x - face.origin) * face.edges[s] / face.edges[s].norm();
-    singular.push_back(along);
-  }
   const QGauss<dim - 1> gauss(n_gauss);
   double sum = 0;
-  for (const BoundingBox<dim - 1> &box : graded_boxes(face.map(), singular, 40))
+  for (const BoundingBox<dim - 1> &box :
+       graded_along(face.origin, face.edges, exact.singularities(), 40))
     for (unsigned int q = 0; q < gauss.size(); ++q)
     {
       const Point<dim - 1> s = box.unit_to_real(gauss.point(q));
@@ -164,10 +210,21 @@ double multiplier_square(const Field<2> &field, const FieldFace<2> &face,
                         });
 }
 
-/** An exact solution says of lambda in space how large it is, which is no error of a vector. */
-double multiplier_square(const Field<3> &, const FieldFace<3> &, const ExactSolution<3> &)
+/** In space lambda is a vector, that of the stress. */
+double multiplier_square(const Field<3> &field, const FieldFace<3> &face,
+                         const ExactSolution<3> &exact)
 {
-  return TrueErrors::unknown;
+  const HookesLaw<3> law(field.scene.material_of(face.cell));
+  return integrate_over(FlatFace<3>(face.map, face.face_no), exact, face.degree() + 8,
+                        [&](const Point<3> &reference, const Point<3> &x)
+                        {
+                          const FaceFrame<3> frame = face.frame(reference);
+                          const double g = field.bound(face, reference);
+                          const Tensor<1, 3> difference =
+                              frame.tangential(law.traction(exact.gradient(x), frame.normal)) +
+                              frame.tangential(field.traction(face, reference).friction);
+                          return g == 0. ? 0. : difference.norm_square() / (g * g);
+                        });
 }
 
 /** |p - lambda_Nn|^2 over one contact face. */
@@ -234,7 +291,7 @@ DifferenceSquares compare_cell(const Field<dim> &field, const typename Field<dim
   const QGauss<dim> gauss(own.degree + 5);
   const HookesLaw<dim> law(scene.material_of(cell));
   DifferenceSquares sums;
-  for (const BoundingBox<dim> &box : graded_boxes(own.map, exact.singularities(), levels))
+  for (const BoundingBox<dim> &box : graded_cell(own.map, exact, levels))
   {
     const auto field_values = own.at(box, gauss);
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -284,8 +341,8 @@ void TrueError<dim>::compare_with_exact(const Field<dim> &field,
         {
           has_multipliers = has_multipliers || !field.friction_cuts(face).empty() ||
                             !field.pressures(face).empty();
-          errors.of_faces.push_back(scene.has_friction() ? multiplier_square(field, face, exact)
-                                                         : 0.);
+          errors.of_faces.push_back(face.condition->friction ? multiplier_square(field, face, exact)
+                                                             : 0.);
           friction += errors.of_faces.back();
           pressure += face.condition->has_pressure() ? pressure_square(field, face, exact) : 0.;
         }

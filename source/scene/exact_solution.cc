@@ -62,5 +62,7 @@ double ExactTraction<dim>::value(const Point<dim> &x, unsigned int) const
 template class ExactSolution<2>;
 template class ExactSolution<3>;
 template class ExactDisplacement<2>;
+template class ExactDisplacement<3>;
 template class ExactTraction<2>;
+template class ExactTraction<3>;
 } // namespace hpvi

@@ -147,7 +147,6 @@ invalid "Boundary foot/Where" "inside a face" "grid line" -- "Boundary foot/On=t
 invalid "Material soft/Where" "inside a cell" -- "Material soft/Where=x^2 + y^2 + z^2 - 0.5"
 invalid "Error/Bound = first" "true, false or last step" -- "Error/Bound=first"
 invalid "Bound on distorted cells" "no guaranteed bound" "remove it" -- "Error/Bound on distorted cells=false"
-invalid "Exact solution" "unknown subsection" "no closed form" -- "Exact solution/Solution=smooth"
 
 # --- hexahedra from a file
 foot() {
@@ -187,8 +186,11 @@ check 2 "has not converged" "problems of Tresca" "lower Friction coefficient" --
 invalid "Normal contact = nodes" "not offered by space" "multiplier" -- "Boundary bottom/Contact=unilateral" "Solver/Normal contact=nodes"
 invalid "Path = reduced" "auto or primal" -- "Solver/Path=reduced"
 invalid "Condition number" "does not form" -- "Solver/Condition number=true"
-invalid "Reference solution" "not offered" -- "Output/Reference solution=true"
-invalid "Reference solution" "not offered" -- "Loading/Steps=3" "Output/Reference solution=true"
+invalid "Reference solution" "asks for a history" -- "Loading/Steps=3" "Output/Reference solution=true"
+invalid "Error/Reference solution = nowhere.dat" "cannot be read" -- "Error/Reference solution=nowhere.dat"
+invalid "Exact solution/Solution" "slides along y = 0" -- "Exact solution/Solution=smooth" "Geometry/Lower corner=0, 1, 0"
+invalid "Boundary bottom/Friction bound" "must be a positive constant" -- "Exact solution/Solution=smooth" "Boundary bottom/Friction bound=1 + z"
+invalid "Boundary left/Traction" "contradicts Exact solution/Solution" "write exact" -- "Exact solution/Solution=smooth"
 invalid "with t = 1 is not finite" "Displacement" -- "Loading/Steps=2" "Boundary right/Displacement=1/(t - 1); 0; 0"
 check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
 check 1 "prm/slab.prm: Dimension = 3" "--picture draws bodies in the plane alone" "--validate" -- \

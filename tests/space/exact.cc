@@ -309,7 +309,8 @@ TEST(TrueErrorInSpace, IsThatOfClosedFormsAndReferences)
                 EXPECT_EQ(other.reference_energy, J);
                 EXPECT_NEAR(errors.reference_energy, J,
                             1e-6 * errors.energy_norm * errors.energy_norm);
-                EXPECT_TRUE(std::isnan(errors.multiplier_l2));
+                EXPECT_LT(errors.multiplier_l2, 1e-4); // it slips everywhere, along one direction
+                EXPECT_TRUE(std::isnan(other.multiplier_l2));
               });
   std::filesystem::remove(file);
 }

@@ -5,6 +5,8 @@
 #include <hpvi/driver/load_history.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <map>
 
 namespace
@@ -37,6 +39,15 @@ Results results(const StepReport<dim> &step, const double thickness)
       for (unsigned int d = c; d < 3; ++d)
         found["stress"][name + std::to_string(c) + std::to_string(d)] = probe.stress[c][d];
   }
+  const TrueErrors &errors = step.errors;
+  for (const auto &[name, value, power] :
+       {std::make_tuple("energy", errors.energy, 0.5),
+        std::make_tuple("norm", errors.energy_norm, 0.5),
+        std::make_tuple("J", errors.reference_energy, 1.), std::make_tuple("L2", errors.l2, 0.5),
+        std::make_tuple("friction", errors.multiplier_l2, 0.5),
+        std::make_tuple("pressure", errors.pressure_l2, 0.5)})
+    if (!std::isnan(value))
+      found["true error"][name] = value / std::pow(thickness, power);
   for (const Resultant<dim> &force : step.forces)
     for (unsigned int c = 0; c < 2; ++c)
       found["force"][force.name + std::to_string(c)] += force.force[c].value / thickness;
@@ -233,6 +244,98 @@ INSTANTIATE_TEST_SUITE_P(
             {{"Boundary right/Displacement", "0.1*t; free; free"},
              {"Boundary top/Traction", "0; -0.5; 0"}}}),
     [](const auto &info) { return std::string(info.param.name); });
+
+/** A body on y = 0 with a closed form, in plane strain, which its other sides follow. */
+Row in_closed_form(const char *const name, const Overrides &entries, const Overrides &plane = {})
+{
+  const Overrides both{{"Boundary left/Displacement", "exact"},
+                       {"Boundary right/Displacement", "exact"},
+                       {"Boundary top/Displacement", "exact"},
+                       {"Material/Poisson's ratio", "0.3"}};
+  return {name,
+          both + entries,
+          Overrides{{"Geometry/Lower corner", "-2, 0"},
+                    given::box("2, 2", "4, 2"),
+                    {"Probe inside/At", "0.3, 0.7"},
+                    {"Probe corner/At", "2, 0"}} +
+              plane,
+          {{"Geometry/Lower corner", "-2, 0, 0"},
+           given::box("2, 2, 0.75", "4, 2, 1"),
+           {"Boundary front/Symmetry", "false"},
+           {"Boundary back/Symmetry", "false"},
+           {"Boundary front/Displacement", "free; free; 0"},
+           {"Boundary back/Displacement", "free; free; exact"},
+           {"Probe inside/At", "0.3, 0.7, 0.4"},
+           {"Probe corner/At", "2, 0, 0.1"}}};
+}
+
+const Overrides stick_slip{{"Exact solution/Solution", "stick-slip"},
+                           {"Material/Young's modulus", "1"},
+                           {"Boundary bottom/Contact", "bilateral"},
+                           {"Boundary bottom/Friction bound", "0.3"}};
+
+INSTANTIATE_TEST_SUITE_P(
+    ExactSolution, PlaneEntries,
+    ::testing::Values(
+        in_closed_form("stick_slip", stick_slip),
+        in_closed_form("on_the_primal_path", stick_slip, {{"Solver/Path", "primal"}}),
+        in_closed_form("smooth", stick_slip + Overrides{{"Exact solution/Solution", "smooth"},
+                                                        {"Boundary bottom/Friction bound", "0.1"}}),
+        in_closed_form("hertz", {{"Exact solution/Solution", "hertz"},
+                                 {"Exact solution/Length", "0.7"},
+                                 {"Exact solution/Pressure", "7"},
+                                 {"Material/Young's modulus", "200"},
+                                 {"Boundary bottom/Contact", "unilateral"},
+                                 {"Boundary bottom/Gap", "0.0455*x^2"}})),
+    [](const auto &info) { return std::string(info.param.name); });
+
+/** A run on finer meshes of higher degree, in a file. */
+template <int dim>
+std::string stored(const Scene<dim> &scene, const std::string &name)
+{
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("hpvi-plane-entries-" + name)).string();
+  LoadHistory<dim>(scene).run(
+      [&](const StepReport<dim> &step)
+      {
+        std::ofstream out(file, std::ios::binary);
+        write_solution(out, step.field, step.energies.energy);
+      });
+  return file;
+}
+
+/** Both measured against finer solutions of their own. */
+TEST(ReferenceSolution, IsThatOfThePlane)
+{
+  Row row{"reference",
+          {{"Boundary bottom/Contact", "bilateral"}, {"Boundary bottom/Friction bound", "0.1"}},
+          pushed_in_plane,
+          pushed_in_space};
+  for (const char *const path : {"reduced", "primal"})
+  {
+    row.plane = pushed_in_plane + Overrides{{"Solver/Path", path}};
+    Row finer = row;
+    finer.both = row.both + given::steps("hup3", "3");
+    Scene<2> flat = in_plane(row);
+    Scene<3> thick = in_space(row);
+    flat.reference_solution = stored(in_plane(finer), "plane");
+    thick.reference_solution = stored(in_space(finer), "space");
+    const auto expected = all_results<2>(flat, 1.), found = all_results<3>(thick, depth);
+    ASSERT_EQ(expected.size(), found.size());
+    for (unsigned int k = 0; k < found.size(); ++k)
+    {
+      const auto &errors = expected[k].at("true error");
+      ASSERT_EQ(errors.size(), 4u);
+      EXPECT_GT(errors.at("energy"), 1e-2 * errors.at("norm"));
+      for (const auto &[name, value] : errors)
+        EXPECT_NEAR(found[k].at("true error").at(name), value,
+                    1e-8 * std::max(std::abs(value), errors.at("norm")))
+            << name;
+    }
+    std::filesystem::remove(flat.reference_solution);
+    std::filesystem::remove(thick.reference_solution);
+  }
+}
 
 /** Fibres at 30 degrees in planes of constant z; G13 and G23 are nobody's there. */
 const Overrides wood{{"Material/Elasticity", "orthotropic"},

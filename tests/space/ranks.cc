@@ -10,7 +10,10 @@
 
 #include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 namespace
 {
@@ -66,6 +69,72 @@ void expect_same_run(
 TEST(Ranks, Slab)
 {
   expect_same_run(slab({{"Adaptivity/Maximum steps", "3"}}));
+}
+
+/** Of each step, in this order: energy, L2, friction, J. */
+std::vector<double> true_errors(const Scene<3> &scene, MPI_Comm communicator)
+{
+  std::vector<double> result;
+  steps_of<3>(
+      scene,
+      [&](const StepReport<3> &step)
+      {
+        const TrueErrors &errors = step.errors;
+        for (const double error :
+             {errors.energy, errors.l2, errors.multiplier_l2, errors.reference_energy})
+          if (!std::isnan(error))
+            result.push_back(error);
+      },
+      communicator);
+  return result;
+}
+
+/** Beside a closed form, and beside finer meshes that all have computed. */
+TEST(Ranks, TrueErrors)
+{
+  const std::string file =
+      (std::filesystem::temp_directory_path() /
+       ("hpvi-ranks-" + std::to_string(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD))))
+          .string();
+  steps_of<3>(
+      slab({given::steps("hap3", "3")}),
+      [&](const StepReport<3> &step)
+      {
+        std::ostringstream content;
+        write_solution(content, step.field, step.energies.energy);
+        if (is_first())
+          std::ofstream(file, std::ios::binary) << content.str();
+      },
+      MPI_COMM_WORLD);
+  MPI_Barrier(MPI_COMM_WORLD);
+  Scene<3> beside_finer = slab({given::steps("hap2", "2")});
+  beside_finer.reference_solution = file;
+  const Scene<3> in_closed_form = slab({{"Exact solution/Solution", "stick-slip"},
+                                        {"Geometry/Lower corner", "-1, 0, 0"},
+                                        given::box("1, 1, 1", "4, 2, 2"),
+                                        given::elastic("1", "0.3"),
+                                        {"Boundary left/Traction", ""},
+                                        {"Boundary left/Displacement", "exact"},
+                                        {"Boundary right/Displacement", "exact"},
+                                        {"Boundary top/Displacement", "exact"},
+                                        {"Boundary front/Displacement", "free; free; 0"},
+                                        {"Boundary back/Displacement", "free; free; 0"},
+                                        {"Boundary bottom/Friction bound", "0.3"},
+                                        given::steps("hap2", "2")});
+  for (const Scene<3> &scene : {beside_finer, in_closed_form})
+  {
+    const auto alone = alone_by([&](MPI_Comm communicator)
+                                { return true_errors(scene, communicator); }),
+               together = true_errors(scene, MPI_COMM_WORLD);
+    if (!is_first())
+      continue;
+    ASSERT_EQ(alone.size(), scene.exact_solution ? 8u : 6u);
+    ASSERT_EQ(together.size(), alone.size());
+    for (unsigned int k = 0; k < alone.size(); ++k)
+      EXPECT_NEAR(together[k], alone[k], 1e-8 * std::abs(alone[k])) << k;
+  }
+  if (is_first())
+    std::filesystem::remove(file);
 }
 
 /** A coarsest mesh that multigrid smooths, above ML: of Coulomb's law, too. */

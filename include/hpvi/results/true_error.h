@@ -21,7 +21,7 @@ struct TrueErrors
   double energy_norm = unknown;      ///< |u|_a, to relate it to
   double reference_energy = unknown; ///< J(u) of the exact or reference solution
   double l2 = unknown;               ///< |u - u_N|_{L2}, length^{1+dim/2}
-  double multiplier_l2 = unknown;    ///< |lambda - z_N/g|_{L2(Gamma_C)}, length^{1/2}, in the plane
+  double multiplier_l2 = unknown;    ///< |lambda - z_N/g|_{L2(Gamma_C)}, length^{(dim-1)/2}
   double pressure_l2 = unknown;      ///< |p - lambda_Nn|_{L2(Gamma_C)}, stress length^{(dim-1)/2}
   double transition = unknown;       ///< largest distance from a transition of u to u_N's, length
   /** Against an exact solution alone: squares of energy and of multiplier_l2. */

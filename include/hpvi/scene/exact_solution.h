@@ -32,7 +32,7 @@ public:
   /** `-T_n >= 0` [stress] on a contact boundary that may open; 0 where none does. */
   virtual double pressure(const dealii::Point<dim> &x) const;
 
-  /** Points where the stress is not smooth: quadrature is graded towards them. */
+  /** Points where the stress is not smooth, in space on lines along z: quadrature is graded towards them. */
   virtual std::vector<dealii::Point<dim>> singularities() const;
 
   /** Points of the contact boundary where its state changes: stick meets slip, contact ends. */

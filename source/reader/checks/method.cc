@@ -244,15 +244,9 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
   if (scene.solver.condition_number)
     return Objection{"Solver", "Condition number",
                      "asks for a matrix S that " + why + " does not form; remove it"};
-  if (scene.output.reference || !scene.reference_solution.empty())
-    return Objection{scene.output.reference ? "Output" : "Error", "Reference solution",
-                     "is not offered by " + why + "; remove it"};
   if (scene.geometry.shape != Shape::box && !(dim == 3 && scene.geometry.has_mesh()))
     return Objection{"Geometry", "Shape", "is not offered by " + why + "; set Shape = box",
                      name_of_shape<dim>(scene.geometry.shape)};
-  if (scene.exact_solution)
-    return Objection{"Exact solution", "Solution",
-                     "is not offered by " + why + "; set Path = reduced or remove it"};
   return std::nullopt;
 }
 
