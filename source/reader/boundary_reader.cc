@@ -239,26 +239,31 @@ void read_spring(const Parameters &parameters, const ExpressionReader<dim> &expr
 }
 
 /** Numbers, which may be written as expressions, to a unit vector. */
-void read_direction(const Parameters &parameters, const ExpressionReader<2> &expressions,
-                    const std::string &section, BoundaryCondition<2> &boundary)
+template <int dim>
+void read_direction(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+                    const std::string &section, BoundaryCondition<dim> &boundary)
 {
   const std::string entry = "Contact direction", value = parameters.text(section, entry);
   if (value.empty())
     return;
   if (!boundary.has_contact())
     parameters.reject(section, entry, direction_needs_contact);
-  static const std::regex variables("\\b[xyt]\\b");
+  static const std::regex variables(dim == 2 ? "\\b[xyt]\\b" : "\\b[xyzt]\\b");
   if (std::regex_search(value, variables))
     parameters.reject(section, entry,
-                      "uses x, y or t, and a direction is the same everywhere; write two numbers, "
-                      "or give each part of the side its own");
-  const auto d = expressions.read<2>(section, entry, "0", {Point<2>()});
-  Tensor<1, 2> direction;
-  for (unsigned int c = 0; c < 2; ++c)
-    direction[c] = d[c] ? d[c]->value(Point<2>()) : 0.;
-  const double largest = std::max(std::abs(direction[0]), std::abs(direction[1]));
+                      std::string("uses ") + (dim == 2 ? "x, y or t" : "x, y, z or t") +
+                          ", and a direction is the same everywhere; write numbers, or give each "
+                          "part of the side its own");
+  const auto d = expressions.template read<dim>(section, entry, "0", {Point<dim>()});
+  Tensor<1, dim> direction;
+  double largest = 0;
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    direction[c] = d[c] ? d[c]->value(Point<dim>()) : 0.;
+    largest = std::max(largest, std::abs(direction[c]));
+  }
   if (largest == 0)
-    parameters.reject(section, entry, "has no direction; write a vector out of the body, as 0; -1");
+    parameters.reject(section, entry, "has no direction; write a vector out of the body");
   direction /= largest; // squares of the numbers may be none
   boundary.contact_direction = direction / direction.norm();
 }
@@ -327,8 +332,7 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
     read_plate(parameters, expressions, section, points, scene.thickness, scene.is_axisymmetric(),
                boundary);
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
-  if constexpr (dim == 2)
-    read_direction(parameters, expressions, section, boundary);
+  read_direction(parameters, expressions, section, boundary);
   boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];
   boundary.friction = expressions.read_friction(section, points);
   boundary.friction.form =

@@ -174,8 +174,11 @@ std::vector<Alias> hints_in_space()
            "G13, G23 and \"Material/Axes\" = x1, y1, z1; x2, y2, z2"},
           {{"angle"}, "set \"Material/Axes\" = x1, y1, z1; x2, y2, z2, vectors along axes 1 and 2"},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
-          {{"thickness", "contact direction"}, "only a body in the plane has it; remove it"},
+          {{"thickness"}, "only a body in the plane has it; remove it"},
           {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},
+          {{"normal", "contact normal", "normal direction", "direction"},
+           "contact is along the normal of the body, or along \"Boundary bottom/Contact "
+           "direction\" = dx; dy"},
           {{"size"},
            "the body lies between \"Geometry/Lower corner\" and \"Geometry/Upper corner\", and a "
            "probe in space has no disc"},

@@ -25,10 +25,16 @@ using namespace dealii;
 std::string in_space(std::string text)
 {
   const std::vector<std::pair<std::string, std::string>> changes{
-      {"x and y", "x, y and z"}, {"(x,y)", "(x,y,z)"},
-      {"Fx; Fy", "Fx; Fy; Fz"},  {"ux; uy", "ux; uy; uz"},
-      {"Gx; Gy", "Gx; Gy; Gz"},  {"gx; gy", "gx; gy; gz"},
-      {"u_t t", "u_t"},          {"e1; e2; e12", "e1; e2; e3; e12; e13; e23"}};
+      {"x and y", "x, y and z"},
+      {"(x,y)", "(x,y,z)"},
+      {"Fx; Fy", "Fx; Fy; Fz"},
+      {"ux; uy", "ux; uy; uz"},
+      {"Gx; Gy", "Gx; Gy; Gz"},
+      {"gx; gy", "gx; gy; gz"},
+      {"u_t t", "u_t"},
+      {"u_t, T_t those along (-dy, dx), per", "u_t, T_t what vectors have beside it, per"},
+      {"dx; dy", "dx; dy; dz"},
+      {"e1; e2; e12", "e1; e2; e3; e12; e13; e23"}};
   for (const auto &[plane, space] : changes)
     if (const std::size_t begin = text.find(plane); begin != std::string::npos)
       text.replace(begin, plane.size(), space);
@@ -281,7 +287,7 @@ void add_program_entries(std::vector<Entry> &entries)
 bool is_of_the_plane(const Entry &entry)
 {
   return entry.name == "Shear" || entry.name == "Rigid" || entry.name == "Force" ||
-         entry.name == "Rotation" || entry.name == "Moment" || entry.name == "Contact direction" ||
+         entry.name == "Rotation" || entry.name == "Moment" ||
          (entry.section == "Solver" &&
           (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
            entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||

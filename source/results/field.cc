@@ -63,7 +63,9 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
     result.tangents = {{-cross_product_2d(result.normal)}};
   else
   {
-    const ContactAxes<dim> axes = axes_of_face(map, face_no, reference);
+    const ContactAxes<dim> axes = condition->contact_direction
+                                      ? contact_axes(result.normal)
+                                      : axes_of_face(map, face_no, reference);
     result.normal = axes.normal;
     result.tangents = axes.tangents;
   }

@@ -225,7 +225,8 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
           rows.resisted.push_back(row_of(-cross_product_2d(boundary.held_direction(normal)), arm));
       if constexpr (dim == 3)
         if (boundary.friction)
-          for (const Tensor<1, dim> &tangent : contact_axes(normal).tangents)
+          for (const Tensor<1, dim> &tangent :
+               contact_axes(boundary.held_direction(normal)).tangents)
             rows.resisted.push_back(row_of(tangent, arm));
     }
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)

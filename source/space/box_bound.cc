@@ -855,7 +855,9 @@ std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u
   if (scene.has_initial_strain())
     return "a material has an initial strain";
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
-    if (boundary.contact == Contact::bilateral && boundary.gap)
+    if (boundary.contact_direction)
+      return "contact is along a direction";
+    else if (boundary.contact == Contact::bilateral && boundary.gap)
       return "bilateral contact has a gap";
     else if (boundary.contact != Contact::unilateral && boundary.friction.knows_pressure())
       return "friction knows the pressure of contact that does not open";

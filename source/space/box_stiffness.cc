@@ -15,12 +15,28 @@ bool any(const std::vector<bool> &moment_components)
          moment_components.end();
 }
 
+namespace
+{
+/** Is it a box with moments along the axes alone? */
+template <int dim>
+bool is_straight(const PrimalSpace<dim> &space, const typename PrimalSpace<dim>::Cell &cell)
+{
+  if (space.scene.geometry.has_mesh())
+    return false;
+  for (const unsigned int face : cell->face_indices())
+    if (const ContactDofFace<dim> *const own = space.moment_face(cell, face))
+      if (own->axes.is_rotated())
+        return false;
+  return true;
+}
+} // namespace
+
 template <int dim>
 FullMatrix<double> basis_of_moments(const PrimalSpace<dim> &space,
                                     const typename PrimalSpace<dim>::Cell &cell)
 {
   const BoxTables<dim> &tables = space.tables;
-  if (!space.scene.geometry.has_mesh())
+  if (is_straight(space, cell))
     return space.tables.basis_of_moments(space.moment_components(cell));
   FullMatrix<double> T = IdentityMatrix(tables.fe.dofs_per_cell);
   const auto add = [&](const ContactDofFace<dim> &face)
@@ -151,7 +167,8 @@ template <int dim>
 const FullMatrix<double> &BoxStiffness<dim>::operator()(const Cell &cell) const
 {
   const std::vector<bool> components = space.moment_components(cell);
-  if (!space.scene.geometry.has_mesh() && !foundation.holds(cell))
+  if (!space.scene.geometry.has_mesh() && !foundation.holds(cell) &&
+      (!any(components) || is_straight(space, cell)))
     return of_box(cell, components);
   const Matrix &K = nodal(cell);
   return any(components) ? last = in_basis(K, basis_of_moments(space, cell)) : K;

@@ -134,18 +134,19 @@ void PrimalSpace<dim>::find_opposite_faces()
                                                        faces, masters);
 }
 
-/** Faces of a mesh from a file have directions of their own, and measures. */
+/** Faces of a mesh from a file have directions of their own, as `Contact direction` has, and measures. */
 template <int dim>
 ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned int number) const
 {
   ContactDofFace<dim> face;
   face.cell = cell;
   face.face = number;
+  const BoundaryCondition<dim> &boundary = condition(cell, number);
   if (!scene.geometry.has_mesh())
   {
     Tensor<1, dim> normal;
     normal[number / 2] = number % 2 == 0 ? -1. : 1.;
-    face.axes = contact_axes(normal);
+    face.axes = contact_axes(boundary.held_direction(normal));
     return face;
   }
   const CellMap<dim> map = map_of<dim>(cell);
@@ -161,7 +162,7 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
   {
     return GeometryInfo<dim>::unit_cell_vertex(GeometryInfo<dim>::face_to_cell_vertices(number, v));
   };
-  face.axes = contact_axes(map.normal(number, corner(0)));
+  face.axes = contact_axes(boundary.held_direction(map.normal(number, corner(0))));
   const double area = map.face_area(number);
   for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_face && !face.own; ++v)
     if (std::abs(map.face_measure(number, corner(v)) - area) > same_box * area)

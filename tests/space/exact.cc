@@ -115,6 +115,52 @@ TEST(Exact, UniformObliqueSlip)
 }
 
 /**
+ * Contact along a direction d in space, under uniform stress: the bottom, whose traction is -p d - g s, slips by s at the distance of
+ * the gap. Under Coulomb's law g is a share of p.
+ */
+TEST(Exact, UniformSlipAcrossADirection)
+{
+  const Tensor<1, 3> d = Tensor<1, 3>({0.3, -1., 0.2}) / Tensor<1, 3>({0.3, -1., 0.2}).norm();
+  Tensor<2, 3> B;
+  for (unsigned int i = 0; i < 3; ++i)
+    B[i][1] = Tensor<1, 3>({0.1, -0.2, 0.15})[i];
+  for (const unsigned int degree : {2U, 3U, 4U})
+    for (const bool is_coulomb : {false, true})
+    {
+      Scene<3> scene = graded_box(degree);
+      const Tensor<1, 3> T =
+          HookesLaw<3>(scene.materials[0]).traction(B, Tensor<1, 3>({0., -1., 0.}));
+      const double p = -(T * d), g = (T + p * d).norm(), gap = 0.05;
+      const Tensor<1, 3> s = -(T + p * d) / g;
+      const KnownField<3> exact = linear(B, 0.3 * s + gap * d);
+      ASSERT_GT(p, 0.1);
+      for (const char *const name : {"left", "right", "front", "back", "top"})
+        prescribe(scene.boundary(name), exact);
+      BoundaryCondition<3> &bottom = scene.boundary("bottom");
+      bottom.contact = Contact::unilateral;
+      bottom.contact_direction = d;
+      bottom.gap = expression<3>(gap);
+      (is_coulomb ? bottom.friction.coefficient : bottom.friction.bound) =
+          expression<3>(is_coulomb ? g / p : g);
+      scene.solver.normal_contact = NormalContact::multiplier;
+      steps_of<3>(scene,
+                  [&](const StepReport<3> &step)
+                  {
+                    EXPECT_LT(energy_error(step, exact), 1e-9 * step.energies.norm);
+                    EXPECT_LT(step.norms.total, 1e-8 * step.energies.norm);
+                    for (const ContactPoint<3> &point : step.contact.at(0).points)
+                    {
+                      EXPECT_TRUE(point.slips);
+                      EXPECT_LT((point.lambda - s).norm(), 1e-8);
+                      EXPECT_LT((point.tangential_displacement - 0.3 * s).norm(), 1e-9);
+                      EXPECT_NEAR(point.normal_displacement, gap, 1e-9);
+                      EXPECT_NEAR(point.normal_traction, -p, 1e-8);
+                    }
+                  });
+    }
+}
+
+/**
  * A smooth field that slips everywhere, u = phi n with phi = exp((x + 2 z)/4) (1 + a y + y^2) + b y, so that
  * T_t = -mu d_y phi n on y = 0. Friction's bound is constant for a = 0.
  */

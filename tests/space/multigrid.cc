@@ -34,6 +34,16 @@ Scene<3> fibres_beside_another()
               Overrides{{"Material hard/Where", "y - 2"}, {"Adaptivity/Maximum unknowns", "4000"}});
 }
 
+Scene<3> slanted_dome()
+{
+  Scene<3> scene =
+      read_scene<3>("prm/dome.prm", {{"Boundary bottom/Contact direction", "0.3; -1; 0.2"},
+                                     {"Error/Bound", "false"},
+                                     {"Adaptivity/Maximum unknowns", "4000"}});
+  scene.solver.primal_tolerance = 1e-11;
+  return scene;
+}
+
 /** Steps of a run by @p method, which must not break down. */
 std::vector<Step> steps_by(Scene<3> scene, const LinearMethod method)
 {
@@ -78,6 +88,7 @@ TEST(Multigrid, KnowsPressuresAndMaterials)
   expect_same_steps(dome("6, 2, 6"));
   expect_same_steps(two_materials());
   expect_same_steps(fibres_beside_another());
+  expect_same_steps(slanted_dome());
 }
 
 /** Calls @p look with the space of the last mesh, which has hanging nodes. */
@@ -102,7 +113,7 @@ void randomise(Vector &v, std::mt19937 &random)
 TEST(Multigrid, HasProductsAndBlocksOfTheMatrix)
 {
   std::mt19937 random;
-  for (const Scene<3> &scene : {dome(), two_materials(), fibres_beside_another()})
+  for (const Scene<3> &scene : {dome(), two_materials(), fibres_beside_another(), slanted_dome()})
     on_last_mesh(scene,
                  [&](const PrimalSpace<3> &space)
                  {

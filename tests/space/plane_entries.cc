@@ -388,6 +388,36 @@ INSTANTIATE_TEST_SUITE_P(
                 {{"Boundary top/Traction", "0.3*t; -0.5; 0"}})),
     [](const auto &info) { return std::string(info.param.name); });
 
+/** An obstacle whose normal is not that of the bottom, at @p boundary. */
+Row along_a_direction(const char *const name, const std::string &contact, const Overrides &both,
+                      const std::string &boundary = "Boundary bottom")
+{
+  return {
+      name,
+      both + Overrides{{boundary + "/Contact", contact}, {"Adaptivity/Maximum steps", "1"}},
+      {{"Boundary top/Traction", "0.1; -0.5"}, {boundary + "/Contact direction", "3; -4"}},
+      {{"Boundary top/Traction", "0.1; -0.5; 0"}, {boundary + "/Contact direction", "3; -4; 0"}}};
+}
+
+const Overrides coulomb{{"Boundary bottom/Friction coefficient", "0.3"}};
+
+INSTANTIATE_TEST_SUITE_P(
+    ContactDirection, PlaneEntries,
+    ::testing::Values(
+        along_a_direction("smooth", "unilateral", {{"Boundary bottom/Gap", "0.0002*x"}}),
+        along_a_direction("tresca", "unilateral", {{"Boundary bottom/Friction bound", "0.1"}}),
+        along_a_direction("coulomb", "unilateral", coulomb),
+        along_a_direction("factorised", "unilateral",
+                          coulomb + Overrides{{"Solver/Linear", "direct"}}),
+        along_a_direction("bilateral", "bilateral", coulomb),
+        along_a_direction("tangential", "tangential", {{"Boundary bottom/Friction bound", "0.1"}}),
+        along_a_direction("on_a_part", "unilateral",
+                          {{"Boundary foot/On", "bottom"},
+                           {"Boundary foot/Where", "x - 2"},
+                           {"Boundary foot/Friction coefficient", "0.3"}},
+                          "Boundary foot")),
+    [](const auto &info) { return std::string(info.param.name); });
+
 /** Hexahedra that are no boxes, of a body that nothing holds but what it would do by itself. */
 Scene<3> free_foot(const Overrides &entries)
 {

@@ -68,7 +68,7 @@ struct BoundaryCondition
   Expression gap; ///< u_0(x) of unilateral contact [length], negative: interference; null: 0
   FrictionLaw<dim> friction;
   double wear = 0; ///< Archard's k: the depth k int max(0, -T_n) |ds| is worn off [1/stress]
-  /** A unit vector d out of the body along which contact is measured, in the plane; nothing: the normal. */
+  /** A unit vector d out of the body along which contact is measured; nothing: the normal. */
   std::optional<dealii::Tensor<1, dim>> contact_direction;
   std::optional<unsigned int> pair; ///< where it meets another body: the index into Scene::pairs
   std::string pair_name;            ///< its name

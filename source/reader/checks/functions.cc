@@ -189,8 +189,6 @@ void check_direction(const Scene<dim> &scene, const BoundaryCondition<dim> &boun
     return;
   const std::string section = section_of(boundary), entry = "Contact direction";
   const Tensor<1, dim> &d = *boundary.contact_direction;
-  if (dim == 3)
-    reject(scene, section, entry, "is not offered in space; remove it");
   if (!boundary.has_contact())
     reject(scene, section, entry, direction_needs_contact);
   if (!(std::abs(d.norm() - 1) < same_direction))

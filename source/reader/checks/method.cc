@@ -229,7 +229,7 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
                            "; run the reduced path on one process, or remove it",
                        "true"};
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.contact_direction)
+    if (dim == 2 && boundary.contact_direction)
       return Objection{section_of(boundary), "Contact direction",
                        "is not offered by " + why +
                            "; run the reduced path on one process, or remove it"};

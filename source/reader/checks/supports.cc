@@ -173,6 +173,11 @@ void check_curved_faces(const Scene<3> &scene)
                "holds u_n = 0 on the face at " + at +
                    ", which is curved, and space offers that of plane faces; give it a "
                    "Displacement, or set Contact = unilateral");
+      if (boundary.contact_direction)
+        reject(scene, section_of(boundary), "Contact direction",
+               "is given on the face at " + at +
+                   " of a curved cell, and space offers it on plane cells; give cells there first "
+                   "order and plane faces");
       if (boundary.pair)
         reject(scene, section_of(boundary), "Contact",
                "is between bodies on the face at " + at +
@@ -186,12 +191,13 @@ void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
 {
   for (const BoundaryCondition<3> &boundary : scene.boundaries)
     for (const Side<3>::Piece &piece : sides[boundary.id].pieces)
-      if (scene.geometry.has_mesh() && boundary.holds_normal() && !boundary.symmetry &&
-          contact_axes(normal_of(piece)).is_rotated())
+      if ((scene.geometry.has_mesh() || boundary.contact_direction) && boundary.holds_normal() &&
+          !boundary.symmetry &&
+          contact_axes(boundary.held_direction(normal_of(piece))).is_rotated())
         reject(scene, section_of(boundary), "Contact",
                "holds u_n = 0 on the face at " + to_string(piece[0]) +
-                   ", whose normal is along no axis, which space does not offer; turn the body, "
-                   "or set unilateral",
+                   " along no axis, which space does not offer; turn the body, or set "
+                   "unilateral",
                "bilateral");
 }
 
