@@ -496,6 +496,8 @@ ROWS = [
       "contact.right.normal_resultant": -4 * math.pi * 0.1794871794871795}),
     ("bolt.prm", SCENES / "bolt.prm", {"forces.shaft.1+forces.bottom.1": -450, "forces.left.0": 0}),
     ("thermal-joint.prm", SCENES / "thermal-joint.prm", {"forces.left.0": 800, "forces.bottom.0": -800, "forces.bottom.1": 4000}),
+    ("floor-slab.prm", SCENES / "floor-slab.prm",
+     {"forces.bottom.1": 2.4 * 9.81 * 3 * 0.2 * 2.5, "forces.left.0+forces.bottom.0": 0, "forces.front.2+forces.bottom.2": 0}),
     ("footing.prm", SCENES / "footing.prm", {"forces.bottom.1": 200 + 9.81 * 8 * (1.8 * 2.5 + 2.1 * 1.5)}),
     ("plate-hole.prm", SCENES / "plate-hole.prm",
      {"contact.bottom.normal_resultant": -1000, "contact.bottom.friction_resultant": -100, "contact.bottom.through.0": 5}),
