@@ -30,6 +30,10 @@ TURNED = {"Material/Plane": "axisymmetric", "Material/Young's modulus": "10", "M
 WOOD = {**BLOCK, "Material/Young's modulus": None, "Material/Poisson's ratio": None, "Material/Elasticity": "orthotropic",
         "Material/Young's moduli": "10, 2", "Material/Poisson's ratios": "0.4", "Material/Shear moduli": "1.5, 7, 8",
         "Boundary right/Traction": "3; 0"}
+GRAIN = {**SPACE, "Material/Young's modulus": None, "Material/Poisson's ratio": None, "Material/Elasticity": "orthotropic",  # axes 1, 2, 3 along y, z, x
+         "Material/Young's moduli": "10, 2, 4", "Material/Poisson's ratios": "0.4, 0.5, 0.2", "Material/Shear moduli": "1.5, 7, 8",
+         "Material/Axes": "0, 2, 0; 0, 1, 3", "Boundary bottom/Displacement": "free; 0; free", "Boundary left/Displacement": "0; free; free",
+         "Boundary front/Displacement": "free; free; 0", "Boundary right/Traction": "3; 0; 0"}
 FIBRES = math.radians(30)  # off-axis tension couples to shear: eps_xx, eps_yy and 2 eps_xy of sigma_xx = 1 in closed form
 C, S = math.cos(FIBRES), math.sin(FIBRES)
 ALONG = C ** 4 / 10 + S ** 4 / 2 + (1 / 1.5 - 2 * 0.4 / 10) * S * S * C * C
@@ -218,6 +222,11 @@ ROWS = [
     ("fibres that inherit all but their angle",
      {**WOOD, "Material/Poisson's ratios": "0", "Material turned/Where": "x - 1", "Material turned/Angle": "-90"},
      {"final.energy": -0.5 * 3 * (3 / 10 + 3 / 2)}),
+    ("fibres in space", {**GRAIN, "Probe tip/At": "2, 1, 1"},
+     {"final.energy": -0.5 * 3 * 3 / 4 * 2, "final.tip_ux": 3 / 4 * 2, "final.tip_uy": -0.5 / 10 * 3, "final.tip_uz": -0.2 / 2 * 3, "final.tip_s1": 3}),
+    ("fibres in space that inherit all but their axes",
+     {**GRAIN, "Material/Poisson's ratios": "0, 0, 0", "Material turned/Where": "x - 1", "Material turned/Axes": "1, 0, 0; 0, 1, 0"},
+     {"final.energy": -0.5 * 3 * (3 / 4 + 3 / 10)}),
     ("springs of a thick body in time", {**BLOCK, **HISTORY, "Boundary left/Displacement": None,
                                          "Boundary left/Spring": "5; 0", "Boundary right/Traction": "3*t; 0",
                                          "Material/Thickness": "2"},
