@@ -49,7 +49,9 @@ class Vocabulary:
 
     def __init__(self, program, scenes):
         self.texts = {scene: scene.read_text() for scene in scenes}
-        printed = subprocess.run([program, "--print-parameters"], capture_output=True, check=True, text=True).stdout
+        in_space = [scene for scene in scenes if "set Dimension = 3" in self.texts[scene]][:1]  # which has entries of its own
+        printed = "".join(subprocess.run([program, "--print-parameters", *scene], capture_output=True, check=True, text=True).stdout
+                          for scene in ([], in_space))
         self.values = {}  # by kind: what was seen
         for path, value in settings(printed):
             self.values.setdefault(kind(path), set()).add(value)
