@@ -43,7 +43,7 @@ LESS = {"fretting-dome": ("Loading/Steps=3", "Adaptivity/Maximum unknowns=5000")
         "block-space": ("Adaptivity/Maximum unknowns=8000",), "dome": ("Adaptivity/Maximum unknowns=8000",),
         "clamped-plates": ("Adaptivity/Maximum unknowns=8000",), "spheres": ("Adaptivity/Maximum unknowns=8000",),
         "fretting-pad-space": ("Loading/Steps=3", "Adaptivity/Maximum unknowns=3000"),
-        "foot": ("Adaptivity/Maximum unknowns=8000",), "floor-slab": ("Adaptivity/Maximum unknowns=4000",)}
+        "foot": ("Adaptivity/Maximum unknowns=8000",), "floor-slab": ("Adaptivity/Maximum unknowns=4000",), "growth-rings": ("Adaptivity/Maximum unknowns=8000",)}
 # Name, options, scene, settings: what no scene of prm/ asks for by itself.
 RUNS = (
     ("history-tresca", (), "fretting", ("Loading/Steps=4", "Boundary bottom/Friction coefficient=", "Boundary bottom/Friction bound=2",

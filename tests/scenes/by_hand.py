@@ -630,6 +630,19 @@ class ByHand(RunTest):
             self.assertAlmostEqual(float(top[column]), value, delta=1e-10, msg=column)
             self.assertAlmostEqual(float(bottom[column]), -value, delta=1e-9, msg=column)
 
+    def test_wood_across_its_growth_rings(self):
+        """Without friction the stress is uniform, by the compliance along y in closed form; friction adds to it."""
+        E, nu, G = (11600, 900, 500), {(0, 1): 0.37, (0, 2): 0.47, (1, 2): 0.43}, {(0, 1): 750, (0, 2): 720, (1, 2): 39}
+        c, s = math.cos(math.radians(10)), math.sin(math.radians(10))
+        length = math.hypot(s, c, c)  # of (c, s, 0) x (0, 1, 1) = (s, -c, c), which is along axis 3
+        y = (s, c * c / length, -c / length)  # by its components along the axes
+        compliance = sum(y[i] ** 4 / E[i] for i in range(3)) \
+            + sum((y[i] * y[j]) ** 2 * (1 / G[i, j] - 2 * nu[i, j] / E[i]) for i, j in nu)
+        smooth = found(self.run_shipped("growth-rings", "Adaptivity/Maximum steps=1", "Boundary bottom/Friction coefficient="), "forces.top.1")
+        self.assertAlmostEqual(smooth, -0.01 / compliance * 2500, delta=1e-5)
+        rough = found(self.run_shipped("growth-rings", "Adaptivity/Maximum steps=2"), "forces.top.1")
+        self.assertAlmostEqual(rough / smooth, 1.08, delta=0.005)
+
     def test_a_line_through_a_hole(self):
         """Uniform stress along a line, of each step; where the line leaves the body fields are empty."""
         line = {"Probe my cut/From": "0, 0.25", "Probe my cut/To": "2, 0.75", "Probe my cut/Points": "5"}
