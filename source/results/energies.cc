@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace hpvi
@@ -68,7 +69,7 @@ std::vector<double> zeros(const F &function, const unsigned int n_samples)
 }
 
 /** int g |u_t| over one face: the pieces of its rule are cut further where u_t changes sign. */
-double friction_work(const FieldFace<2> &face, const Field<2> &field, double)
+double friction_work(const FieldFace<2> &face, const Field<2> &field)
 {
   const std::vector<double> jumps = field.friction_cuts(face);
   if (jumps.empty())
@@ -94,6 +95,35 @@ double friction_work(const FieldFace<2> &face, const Field<2> &field, double)
   return face.area() * sum;
 }
 
+/** Lagrange's basis at Gauss points of (0,1) there, and on its halves, their halves and so on, each made once. */
+class HalvedBasis
+{
+public:
+  HalvedBasis(const ShapeTables<3> &tables, const unsigned int degree)
+      : gauss(tables.gauss(degree + 1)), basis(tables.gauss_lagrange(gauss.size()))
+  {
+  }
+
+  /** On part @p number of `2^level`: of function i at Gauss point q at `q n + i`. */
+  const double *on_part(const unsigned int level, const unsigned int number)
+  {
+    const std::size_t place = (std::size_t(1) << level) + number;
+    if (place >= parts.size())
+      parts.resize(place + 1);
+    if (parts[place].empty())
+      for (const Point<1> &point : gauss.get_points())
+        for (const auto &polynomial : basis)
+          parts[place].push_back(polynomial.value(std::ldexp(number + point[0], -int(level))));
+    return parts[place].data();
+  }
+
+  const QGauss<1> &gauss;
+
+private:
+  const std::vector<Polynomials::Polynomial<double>> &basis;
+  std::vector<std::vector<double>> parts;
+};
+
 /**
  * g |u_t| on a face in space. |u_t| has a kink where u_t vanishes, at points or along curves, and g may jump:
  * squares are cut into four until that changes nothing any more.
@@ -101,9 +131,8 @@ double friction_work(const FieldFace<2> &face, const Field<2> &field, double)
 class FrictionWork
 {
 public:
-  FrictionWork(const FieldFace<3> &face, const Field<3> &field)
-      : face(face), field(field), gauss(field.tables.gauss(face.degree() + 1)),
-        basis(field.tables.gauss_lagrange(gauss.size()))
+  FrictionWork(const FieldFace<3> &face, const Field<3> &field, HalvedBasis &basis)
+      : face(face), field(field), basis(basis), lines(basis.gauss.size() * basis.gauss.size())
   {
     for (unsigned int v = 0; v < 4; ++v)
       measures[v] = face.map.face_measure(face.face_no,
@@ -123,49 +152,50 @@ public:
   }
 
   /** On the face, up to @p tolerance on it as a whole. */
-  double integral(const double tolerance) const
+  double integral(const double tolerance)
   {
-    return integral(Point<2>(), 1., on_square(Point<2>(), 1.), tolerance, 7);
+    return integral(0, {{0, 0}}, on_square(0, {{0, 0}}), tolerance);
   }
 
 private:
+  using Square = std::array<unsigned int, 2>; ///< its number among `2^level` along each axis
+
   std::vector<Point<3>> nodes() const
   {
     std::vector<Point<3>> result;
-    for (const Point<1> &b : gauss.get_points())
-      for (const Point<1> &a : gauss.get_points())
+    for (const Point<1> &b : basis.gauss.get_points())
+      for (const Point<1> &a : basis.gauss.get_points())
         result.push_back(point_on_face<3>(face.face_no, Point<2>(a[0], b[0])));
     return result;
   }
 
-  /** By one Gauss rule on the square with its first corner at @p corner. */
-  double on_square(const Point<2> &corner, const double width) const
+  /** By one Gauss rule. */
+  double on_square(const unsigned int level, const Square &square)
   {
+    const QGauss<1> &gauss = basis.gauss;
     const unsigned int n = gauss.size();
-    std::array<std::vector<double>, 2> values; // of the basis at the points in each direction
-    for (unsigned int d = 0; d < 2; ++d)
-      for (unsigned int q = 0; q < n; ++q)
-        for (unsigned int i = 0; i < n; ++i)
-          values[d].push_back(basis[i].value(corner[d] + width * gauss.point(q)[0]));
+    const double width = std::ldexp(1., -int(level));
     // Slip at points along the first axis and nodes along the second.
-    std::vector<Tensor<1, 3>> lines(n * n);
+    const double *const along = basis.on_part(level, square[0]);
+    std::fill(lines.begin(), lines.end(), Tensor<1, 3>());
     for (unsigned int q = 0; q < n; ++q)
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
-          lines[q * n + j] += values[0][q * n + i] * slip[j * n + i];
+          lines[q * n + j] += along[q * n + i] * slip[j * n + i];
+    const double *const across = basis.on_part(level, square[1]);
     double sum = 0;
     for (unsigned int r = 0; r < n; ++r)
       for (unsigned int q = 0; q < n; ++q)
       {
-        const Point<2> on_face(corner[0] + width * gauss.point(q)[0],
-                               corner[1] + width * gauss.point(r)[0]);
+        const Point<2> on_face(width * (square[0] + gauss.point(q)[0]),
+                               width * (square[1] + gauss.point(r)[0]));
         const Point<3> reference = point_on_face<3>(face.face_no, on_face);
         const double bound = field.bound(face, reference);
         if (bound == 0.)
           continue;
         Tensor<1, 3> u;
         for (unsigned int j = 0; j < n; ++j)
-          u += values[1][r * n + j] * lines[q * n + j];
+          u += across[r * n + j] * lines[q * n + j];
         if (face.condition->pair) // what is opposite is no polynomial where its cells end
         {
           const FaceFrame<3> frame = face.frame(reference);
@@ -183,61 +213,82 @@ private:
            x[1] * ((1 - x[0]) * measures[2] + x[0] * measures[3]);
   }
 
-  double integral(const Point<2> &corner, const double width, const double whole,
-                  const double tolerance, const unsigned int levels) const
+  double integral(const unsigned int level, const Square &square, const double whole,
+                  const double tolerance)
   {
+    constexpr unsigned int most_levels = 7;
     std::array<double, 4> parts;
-    const auto corner_of = [&](const unsigned int k) -> Point<2> {
-      return {corner[0] + (k % 2) * width / 2, corner[1] + (k / 2) * width / 2};
+    const auto part = [&](const unsigned int k) -> Square {
+      return {{2 * square[0] + k % 2, 2 * square[1] + k / 2}};
     };
     double sum = 0;
     for (unsigned int k = 0; k < 4; ++k)
-      sum += parts[k] = on_square(corner_of(k), width / 2);
-    if (levels == 0 || std::abs(sum - whole) <= tolerance)
+      sum += parts[k] = on_square(level + 1, part(k));
+    if (level == most_levels || std::abs(sum - whole) <= tolerance)
       return sum;
     sum = 0;
     for (unsigned int k = 0; k < 4; ++k)
-      sum += integral(corner_of(k), width / 2, parts[k], tolerance / 2, levels - 1);
+      sum += integral(level + 1, part(k), parts[k], tolerance / 2);
     return sum;
   }
 
   const FieldFace<3> &face;
   const Field<3> &field;
-  const QGauss<1> &gauss;
-  const std::vector<Polynomials::Polynomial<double>> &basis;
-  std::vector<Tensor<1, 3>> slip; ///< at nodes(), of the own side alone
-  std::array<double, 4> measures; ///< at the corners
+  HalvedBasis &basis;
+  std::vector<Tensor<1, 3>> slip;  ///< at nodes(), of the own side alone
+  std::vector<Tensor<1, 3>> lines; ///< of on_square()
+  std::array<double, 4> measures;  ///< at the corners
 };
 
-double friction_work(const FieldFace<3> &face, const Field<3> &field, const double tolerance)
-{
-  return FrictionWork(face, field).integral(tolerance);
-}
-
-/** Over all contact; @p tolerance is that of each face in space. */
-template <int dim>
-double friction_work(const Field<dim> &field, const double tolerance)
+/** Over all contact of @p field; @p a is twice the strain energy. */
+double friction_work(const Field<2> &field, double)
 {
   return sum_collectively(field.communicator(),
                           [&]()
                           {
                             double sum = 0;
-                            for (const FieldFace<dim> &face : field.faces())
+                            for (const FieldFace<2> &face : field.faces())
                               if (face.condition->friction)
-                                sum += friction_work(face, field, tolerance);
+                                sum += friction_work(face, field);
                             return sum;
                           });
+}
+
+double friction_work(const Field<3> &field, const double a)
+{
+  std::map<unsigned int, HalvedBasis> bases; // by degree
+  std::vector<FrictionWork> works;
+  const auto sum = [&](const double tolerance) // of each face
+  {
+    return sum_collectively(field.communicator(),
+                            [&]()
+                            {
+                              double all = 0;
+                              for (FrictionWork &work : works)
+                                all += work.integral(tolerance);
+                              return all;
+                            });
+  };
+  collectively(
+      field.communicator(),
+      [&]()
+      {
+        for (const FieldFace<3> &face : field.faces())
+          if (face.condition->friction)
+            works.emplace_back(
+                face, field,
+                bases.try_emplace(face.degree(), field.tables, face.degree()).first->second);
+      });
+  const double roughly = sum(std::numeric_limits<double>::infinity());
+  // slip that is round-off has no digits to find
+  return sum(std::max(1e-8 * roughly, 1e-14 * std::abs(a)));
 }
 } // namespace
 
 template <int dim>
 Energies energies(const Field<dim> &field, const double a, const double work)
 {
-  const double infinity = std::numeric_limits<double>::infinity(),
-               roughly = dim == 2 ? 0. : friction_work(field, infinity),
-               // slip that is round-off has no digits to find
-      friction = friction_work(field, std::max(1e-8 * roughly, 1e-14 * std::abs(a))),
-               coupling = field.contact_work();
+  const double friction = friction_work(field, a), coupling = field.contact_work();
   const double potential = 0.5 * a - work;
   const double norm =
       std::sqrt(std::max(a, 0.)); // round-off has any sign where nothing is strained

@@ -260,7 +260,10 @@ double PrimalField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &ref
   for (unsigned int k = 0;
        law.knows_pressure() && own && own->has_pressure() && k < space.tables.n_contact_dofs(); ++k)
     pressure += space.tables.psi(k, face.face_no, reference) * (*lambda)[own->pressure + k][0];
-  return law.limit(face.map.point(reference), pressure);
+  const auto varies = [](const Expression<dim> &function)
+  { return function && !is_constant<dim>(function); };
+  const bool is_same = !varies(law.bound) && !varies(law.coefficient) && !law.by_pressure;
+  return law.limit(is_same ? Point<dim>() : face.map.point(reference), pressure);
 }
 
 template <int dim>

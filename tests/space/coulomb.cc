@@ -176,6 +176,18 @@ TEST(Coulomb, WithoutAFixedPointItFails)
   EXPECT_TRUE(says(failure, "lower Friction coefficient")) << failure;
 }
 
+/** So nobody asks for it at each point where friction acts. */
+TEST(Coulomb, ANumberIsKnownForOne)
+{
+  const auto is_number = [](const std::string &coefficient)
+  {
+    return is_constant<3>(
+        rubbing_slab({given::coulomb(coefficient)}).boundary("bottom").friction.coefficient);
+  };
+  EXPECT_TRUE(is_number("0.5"));
+  EXPECT_FALSE(is_number("0.5 + 0*x"));
+}
+
 /** Where no tolerance is named, what the fixed point leaves is small beside the indicator. */
 TEST(Coulomb, StopsWhereTheEstimatedErrorSaysSo)
 {
@@ -186,6 +198,8 @@ TEST(Coulomb, StopsWhereTheEstimatedErrorSaysSo)
   steps_of<3>(scene,
               [&](const StepReport<3> &step)
               {
+                EXPECT_GT(step.primal->newton.error,
+                          0); // no problem of Tresca needs it, their law does
                 EXPECT_LE(step.primal->newton.error, 1e-2 * step.scaled_estimate);
                 EXPECT_NEAR(step.energies.norm, exact[k].norm, step.primal->newton.error + 1e-8);
                 ++k;

@@ -467,6 +467,8 @@ ExpressionReader<dim>::not_negative(const Expression &g, const std::string &sect
   const auto bound = std::make_shared<ScalarFunctionFromFunctionObject<dim>>(value);
   for (const Point<dim> &point : points)
     bound->value(point);
+  if (is_constant<dim>(g) && !points.empty())
+    return g; // a number, which others recognise
   return bound;
 }
 
