@@ -12,7 +12,6 @@
 #include <hpvi/reader/checks/checks.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/space/box_bound.h>
-#include <hpvi/space/contact_statics.h>
 #include <hpvi/space/load_check.h>
 #include <hpvi/space/newton_matrix.h>
 #include <hpvi/space/nodal_forces.h>
@@ -181,9 +180,9 @@ void PrimalBackend<dim>::reach_loads()
   if constexpr (dim == 3)
     for (unsigned int levels_left = 4;; --levels_left)
     {
-      const ContactStatics statics(*space, system->f);
-      statics.require_static_admissibility();
-      const auto missing = statics.missing();
+      statics = std::make_unique<const ContactStatics>(*space, system->f);
+      statics->require_static_admissibility();
+      const auto missing = statics->missing();
       if (!missing)
         return;
       if (levels_left == 0 || missing->n_cells == 0)
@@ -220,7 +219,7 @@ void PrimalBackend<dim>::iterate(FrictionIteration<dim> &friction, NewtonMatrix<
   if constexpr (dim == 3)
     if (space->rests_on_contact)
     {
-      report += ProximalPoint(*space, *system, matrix).solve(v, lambda, settings, solve);
+      report += ProximalPoint(*space, *system, matrix, *statics).solve(v, lambda, settings, solve);
       return;
     }
   report += solve(settings);
@@ -399,8 +398,9 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
                [&]()
                {
                  for (const std::string &line :
-                      {LoadCheck<dim>(scene).warning(balance.loads),
-                       strain_warning(scene, initial_stress), spring_warning(scene, springs)})
+                      {LoadCheck<dim>(scene, *mesh).warning(balance.loads),
+                       strain_warning<dim>(scene, *mesh, initial_stress),
+                       spring_warning<dim>(scene, *mesh, springs)})
                    if (!line.empty())
                      result.push_back({WarningKind::load, 0., line});
                });
@@ -447,6 +447,7 @@ void PrimalBackend<dim>::refine(const Refinement &refinement)
     mesh->execute_coarsening_and_refinement();
   }
   values_at_points.reset();
+  statics.reset();
   system.reset();
   number();
   StageTimer timer(times.refine);

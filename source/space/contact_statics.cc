@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace hpvi
 {
@@ -203,6 +204,7 @@ std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
   const BoxTables<3> &tables = space.tables;
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   std::vector<DistributedVector> result(motions.size(), space.ghosted_vector());
+  std::vector<char> is_known(space.relevant.n_elements()); // by the first component at a node
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (!cell->is_artificial())
     {
@@ -211,13 +213,14 @@ std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
       cell->get_dof_indices(dofs);
       for (const auto &components : tables.numbers)
       {
+        if (std::exchange(is_known[space.relevant.index_within_set(dofs[components[0]])], true))
+          continue; // from another cell
         const Point<3> x = map.point(tables.fe.unit_support_point(components[0]));
         for (unsigned int m = 0; m < motions.size(); ++m)
         {
           const Tensor<1, 3> u = motions[m][body].at(x);
           for (unsigned int c = 0; c < 3; ++c)
-            if (space.relevant.is_element(dofs[components[c]]))
-              result[m](dofs[components[c]]) = u[c];
+            result[m](dofs[components[c]]) = u[c];
         }
       }
     }

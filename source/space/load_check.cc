@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/base/tolerances.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/load_quadrature.h>
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
 
 namespace hpvi
 {
@@ -26,10 +29,13 @@ void for_each_point(const CellMap<dim> &map, const unsigned int face, const unsi
                     const std::array<unsigned int, dim> &n_parts,
                     const std::function<void(const Point<dim> &, double)> &take)
 {
+  static std::map<std::pair<unsigned int, unsigned int>, Quadrature<1>> known; // dear beside a cell
   std::array<Quadrature<1>, dim> rules;
   for (unsigned int d = 0; d < dim; ++d)
     rules[d] = d == face / 2 ? Quadrature<1>(Point<1>(face % 2))
-                             : Quadrature<1>(QIterated<1>(QGauss<1>(n_gauss), n_parts[d]));
+                             : memoised(known, {n_gauss, n_parts[d]},
+                                        [&]() -> Quadrature<1>
+                                        { return QIterated<1>(QGauss<1>(n_gauss), n_parts[d]); });
   std::array<unsigned int, dim> q{};
   for (bool ends = false; !ends;)
   {
@@ -137,20 +143,27 @@ double size_of(const Tensor<1, dim> &x)
 template <int dim>
 LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
 {
+  Triangulation<dim> mesh;
+  make_mesh(scene, mesh);
+  *this = LoadCheck(scene, mesh);
+}
+
+template <int dim>
+LoadCheck<dim>::LoadCheck(const Scene<dim> &scene, const Triangulation<dim> &mesh)
+{
   centre = scene.geometry.centre();
   thickness = scene.thickness;
   size = scene.geometry.diameter();
-  Triangulation<dim> mesh;
-  make_mesh(scene, mesh);
   double largest = 0;
   const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
                         const std::string &name)
   {
     const Parts<dim> parts(scene, face, std::any_of(load.begin(), load.end(), varies<dim>));
     Tensor<1, dim> coarse, fine;
-    for_each_point<dim>(map, face, parts.n_gauss, parts.once,
-                        [&](const Point<dim> &x, const double weight)
-                        { coarse += weight * load_at<dim>(load, x); });
+    if (parts.once != parts.often)
+      for_each_point<dim>(map, face, parts.n_gauss, parts.once,
+                          [&](const Point<dim> &x, const double weight)
+                          { coarse += weight * load_at<dim>(load, x); });
     for_each_point<dim>(map, face, parts.n_gauss, parts.often,
                         [&](const Point<dim> &x, const double weight)
                         {
@@ -161,6 +174,8 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene)
                             absolute += std::abs(force[c]);
                         });
     sum.force += fine;
+    if (parts.once == parts.often)
+      coarse = fine;
     if ((coarse - fine).norm() <= largest)
       return;
     largest = (coarse - fine).norm();
@@ -278,12 +293,11 @@ Tensor<1, dim *(dim + 1) / 2> components(const Tensor<2, dim> &stress)
 } // namespace
 
 template <int dim>
-std::string strain_warning(const Scene<dim> &scene, const Tensor<2, dim> &stresses)
+std::string strain_warning(const Scene<dim> &scene, const Triangulation<dim> &mesh,
+                           const Tensor<2, dim> &stresses)
 {
   if (!scene.has_initial_strain())
     return {};
-  Triangulation<dim> mesh;
-  make_mesh(scene, mesh);
   Comparison<dim, dim *(dim + 1) / 2> comparison(scene);
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
@@ -303,12 +317,11 @@ std::string strain_warning(const Scene<dim> &scene, const Tensor<2, dim> &stress
 }
 
 template <int dim>
-std::string spring_warning(const Scene<dim> &scene, const Tensor<1, 2> &stiffness)
+std::string spring_warning(const Scene<dim> &scene, const Triangulation<dim> &mesh,
+                           const Tensor<1, 2> &stiffness)
 {
   if (!scene.has_springs())
     return {};
-  Triangulation<dim> mesh;
-  make_mesh(scene, mesh);
   Comparison<dim, 2> comparison(scene);
   for (const auto &cell : mesh.cell_iterators_on_level(0))
     for (const unsigned int face : cell->face_indices())
@@ -330,8 +343,12 @@ std::string spring_warning(const Scene<dim> &scene, const Tensor<1, 2> &stiffnes
 
 template struct LoadCheck<2>;
 template struct LoadCheck<3>;
-template std::string strain_warning(const Scene<2> &, const Tensor<2, 2> &);
-template std::string strain_warning(const Scene<3> &, const Tensor<2, 3> &);
-template std::string spring_warning(const Scene<2> &, const Tensor<1, 2> &);
-template std::string spring_warning(const Scene<3> &, const Tensor<1, 2> &);
+template std::string strain_warning(const Scene<2> &, const Triangulation<2> &,
+                                    const Tensor<2, 2> &);
+template std::string strain_warning(const Scene<3> &, const Triangulation<3> &,
+                                    const Tensor<2, 3> &);
+template std::string spring_warning(const Scene<2> &, const Triangulation<2> &,
+                                    const Tensor<1, 2> &);
+template std::string spring_warning(const Scene<3> &, const Triangulation<3> &,
+                                    const Tensor<1, 2> &);
 } // namespace hpvi

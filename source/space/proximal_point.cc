@@ -18,8 +18,8 @@ constexpr unsigned int most_steps = 40; ///< proximal steps
 } // namespace
 
 ProximalPoint::ProximalPoint(const PrimalSpace<3> &space, PrimalSystem<3> &system,
-                             NewtonMatrix<3> &matrix)
-    : space(space), system(system), loads(system.f), statics(space, loads),
+                             NewtonMatrix<3> &matrix, const ContactStatics &statics)
+    : space(space), system(system), loads(system.f), statics(statics),
       springs(space.contact.size()), centres(space.contact.size())
 {
   const double stiffness =

@@ -4,7 +4,9 @@
 
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/driver/load_history.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/results/warnings/warnings.h>
+#include <hpvi/space/load_check.h>
 
 #include <algorithm>
 
@@ -153,6 +155,26 @@ TEST(Warnings, InSpaceOfHeatThatNoRuleResolves)
   EXPECT_TRUE(warns({{"Material/Initial strain", "if(x*y < 0.2, 1e-3, 0); 0; 0; 0; 0; 0"}},
                     "Initial strain" + words));
   EXPECT_FALSE(warns({{"Temperature/Expression", "1 + x*y*z"}}, ""));
+}
+
+/** A load of a kind is integrated once over each coarse cell, on any mesh that came of them. */
+TEST(Warnings, InSpaceLoadsAreThoseOfCoarseCells)
+{
+  for (const char *const force : {"0; 0.2; -1", "0; y*z; -exp(x)"})
+  {
+    const Scene<3> scene = block<3>({{"Body force/Expression", force},
+                                     {"Boundary right/Traction", "1; 0; 0"},
+                                     {"Boundary left/Displacement", "0; 0; 0"}});
+    Triangulation<3> mesh;
+    make_mesh(scene, mesh);
+    mesh.refine_global(1);
+    const LoadCheck<3> once(scene), refined(scene, mesh);
+    EXPECT_EQ(once.in_words(), refined.in_words());
+    EXPECT_NEAR(once.sum.force[0], 1, 1e-12);
+    EXPECT_LT((once.finer - refined.finer).norm(), 1e-14);
+    EXPECT_LT((once.force - once.finer).norm(), 1e-4); // both rules
+    EXPECT_EQ(once.worst, refined.worst);
+  }
 }
 
 TEST(Warnings, InSpaceOfSpringsThatNoRuleResolves)

@@ -3,6 +3,7 @@
 #define hpvi_primal_backend_h
 
 #include <hpvi/driver/backend.h>
+#include <hpvi/space/contact_statics.h>
 #include <hpvi/space/friction_iteration.h>
 #include <hpvi/space/past_state.h>
 #include <hpvi/space/primal_system.h>
@@ -76,11 +77,12 @@ private:
   const BoxTables<dim> tables;
   const ShapeTables<dim> shape_tables; ///< for its field
   std::unique_ptr<PrimalSpace<dim>> space;
-  std::unique_ptr<PrimalSystem<dim>> system;          ///< of it; null before solve()
-  DistributedVector u;                                ///< on the current mesh, from the one before
-  std::vector<ContactVector<dim>> lambda;             ///< likewise
-  bool has_start = false;                             ///< are there both?
-  std::optional<PastState<dim>> past;                 ///< the end of the load step before, likewise
+  std::unique_ptr<PrimalSystem<dim>> system;     ///< of it; null before solve()
+  std::unique_ptr<const ContactStatics> statics; ///< of both, where contact alone holds the body
+  DistributedVector u;                           ///< on the current mesh, from the one before
+  std::vector<ContactVector<dim>> lambda;        ///< likewise
+  bool has_start = false;                        ///< are there both?
+  std::optional<PastState<dim>> past;            ///< the end of the load step before, likewise
   std::unique_ptr<const Field<dim>> values_at_points; ///< of both
   ErrorEstimate estimated;                            ///< likewise
   double error =

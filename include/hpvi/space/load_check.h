@@ -17,6 +17,9 @@ struct LoadCheck
 {
   explicit LoadCheck(const Scene<dim> &scene);
 
+  /** On coarse cells that are there. */
+  LoadCheck(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh);
+
   dealii::Point<dim> centre; ///< of the body
   BoundaryForce<dim> sum;    ///< of all of them, for unit thickness
   double thickness = 1;
@@ -36,14 +39,16 @@ struct LoadCheck
 
 /**
  * The same of initial strains by their stress C eps_0, which acts as a load: that of the cells of a discrete problem in all,
- * @p stresses [stress length^dim], differs from the finer rule by more than 1e-3 of all; else empty.
+ * @p stresses [stress length^dim], differs from the finer rule by more than 1e-3 of all; else empty. @p mesh has the coarse cells.
  */
 template <int dim>
-std::string strain_warning(const Scene<dim> &scene, const dealii::Tensor<2, dim> &stresses);
+std::string strain_warning(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh,
+                           const dealii::Tensor<2, dim> &stresses);
 
 /** And of springs by `int k_n` and `int k_t` over their faces [stress length^(dim-2)]. */
 template <int dim>
-std::string spring_warning(const Scene<dim> &scene, const dealii::Tensor<1, 2> &stiffness);
+std::string spring_warning(const Scene<dim> &scene, const dealii::Triangulation<dim> &mesh,
+                           const dealii::Tensor<1, 2> &stiffness);
 } // namespace hpvi
 
 #endif

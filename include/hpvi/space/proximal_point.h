@@ -22,8 +22,9 @@ class ProximalPoint
 public:
   using Solve = std::function<NewtonReport(const NewtonSettings &)>;
 
-  /** All of them live as long as this, which changes the f of @p system. */
-  ProximalPoint(const PrimalSpace<3> &space, PrimalSystem<3> &system, NewtonMatrix<3> &matrix);
+  /** All of them live as long as this, which changes the f of @p system; @p statics are of that f. */
+  ProximalPoint(const PrimalSpace<3> &space, PrimalSystem<3> &system, NewtonMatrix<3> &matrix,
+                const ContactStatics &statics);
 
   ~ProximalPoint();
   ProximalPoint(const ProximalPoint &) = delete;
@@ -43,7 +44,7 @@ private:
   const PrimalSpace<3> &space;
   PrimalSystem<3> &system;
   const DistributedVector loads;
-  const ContactStatics statics;
+  const ContactStatics &statics;
   std::vector<double> springs; ///< [force/length]
   std::vector<ContactVector<3>> centres;
 };
