@@ -41,6 +41,7 @@ bool meets(const NewtonReport &left, const NewtonSettings &settings)
 NewtonSettings part_of(const NewtonSettings &settings, const NewtonReport &now)
 {
   NewtonSettings result = settings;
+  result.wants_error = false; // that under the law is measured afterwards
   result.residual = std::max(0.5 * settings.residual, 0.1 * now.residual);
   if (settings.error > 0)
     result.error = std::max(0.5 * settings.error, 0.1 * now.error);

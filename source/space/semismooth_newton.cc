@@ -309,7 +309,8 @@ bool SemismoothNewton<dim>::is_exact(const NewtonSettings &settings, const Resid
 {
   report.residual = now.load > 0 ? now.norm / now.load : 0;
   const bool is_small = now.norm <= settings.residual * now.load;
-  const bool knows_error = matrix.n_setups > 0 && (is_small || settings.error > 0);
+  const bool knows_error =
+      matrix.n_setups > 0 && ((is_small && settings.wants_error) || settings.error > 0);
   report.error = knows_error ? error(now.gap) : 0;
   return is_small || (knows_error && report.error <= settings.error);
 }

@@ -37,6 +37,8 @@ struct NewtonSettings
   double residual = 1e-6;          ///< relative to the load vector
   double error = 0;                ///< or: estimated, in the energy norm [(stress length^dim)^1/2]
   unsigned int maximum_steps = 12; ///< then the augmented Lagrangian takes over
+  bool wants_error =
+      true; ///< NewtonReport::error where nothing asks for it so far: one more cycle of multigrid
 };
 
 /**
