@@ -79,8 +79,9 @@ NewtonReport ProximalPoint::solve(const DistributedVector &v,
     const double left = statics.imbalance(lambda, words);
     if (left <= balanced && is_met)
       return report;
-    if (is_met) // as the error of the mesh allows, but forces shall balance
-      settings = {std::clamp(0.1 * left, 1e-10, 1e-3), 0., settings.maximum_steps};
+    if (is_met) // as the error of the mesh allows, but forces shall balance, which are out of it as the residual is
+      settings = {std::clamp(0.1 * std::max(left, report.residual * balanced / left), 1e-10, 1e-3),
+                  0., settings.maximum_steps};
   }
   throw NumericalFailure("no equilibrium found in " + std::to_string(most_steps) +
                          " steps: " + words +

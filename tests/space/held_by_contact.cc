@@ -60,6 +60,20 @@ std::string failure_of(const Scene<3> &scene)
   return ::failure_of<NumericalFailure>([&] { steps_of<3>(scene); });
 }
 
+/** Where forces are out of balance by little the residual falls by as little: else two more steps on this mesh, and ten on others. */
+TEST(HeldByContact, BalanceTakesNoMoreThanItNeeds)
+{
+  Scene<3> scene = block(with(body_force("0.3; -1; 0"), {{"Geometry/Subdivisions", "5, 3, 4"},
+                                                         {"Adaptivity/Maximum steps", "1"}}));
+  scene.solver.primal_tolerance = 0;
+  steps_of<3>(scene,
+              [](const StepReport<3> &step)
+              {
+                EXPECT_LE(step.primal->newton.cg_steps, 8u);
+                EXPECT_LE(step.equilibrium.force_imbalance, 1e-9);
+              });
+}
+
 // ---------------------------------------------------------------- what holds
 
 struct Held
