@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
+#include <hpvi/base/memo_table.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/hexahedral_file.h>
 #include <hpvi/reader/shapes/curve_fit.h>
@@ -9,7 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <memory>
+#include <tuple>
 #include <utility>
 
 namespace hpvi
@@ -104,6 +108,29 @@ std::string facets_in_words(const HexahedralMesh &mesh, const Faces &faces)
          " around " + rounded(fit->centre[0] * e + fit->centre[1] * f, fit->radius) + " along " +
          rounded(axis, 1);
 }
+
+/**
+ * By read_hexahedral_file(). The names of the sides are asked for before the mesh: what was made of a file that has not changed is kept.
+ */
+std::shared_ptr<const HexahedralMesh> mesh_of(const std::string &path,
+                                              const std::vector<std::string> &volumes,
+                                              const DrawingRequest &request)
+{
+  using Key = std::tuple<std::string, std::filesystem::file_time_type, std::uintmax_t,
+                         std::vector<std::string>, double, double, std::string,
+                         std::map<std::int64_t, std::string>>;
+  static std::map<Key, std::shared_ptr<const HexahedralMesh>> known;
+  const auto make = [&]()
+  { return std::make_shared<const HexahedralMesh>(read_hexahedral_file(path, volumes, request)); };
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(path, error);
+  if (error) // what is given by code is no file
+    return make();
+  const Key key(std::filesystem::absolute(path).lexically_normal().string(), time,
+                std::filesystem::file_size(path), volumes, request.size, request.curvature,
+                request.unit, request.curves);
+  return memoised(known, key, make);
+}
 } // namespace
 
 std::vector<std::string> remarks_on_facets(const HexahedralMesh &mesh)
@@ -136,14 +163,13 @@ ShapeKind<3> hexahedra_from_file()
           parameters.reject("Geometry", "File",
                             "names no mesh; give a drawing or a mesh, as body.step or body.msh");
         const std::vector<std::string> volumes = surfaces_of_body(parameters);
-        HexahedralMesh mesh =
-            read_hexahedral_file(beside(parameters.file_name(), file), volumes,
-                                 drawing_request([&](const std::string &entry)
-                                                 { return parameters.text("Geometry", entry); }));
-        check_surfaces(volumes, mesh,
+        const auto mesh = mesh_of(beside(parameters.file_name(), file), volumes,
+                                  drawing_request([&](const std::string &entry)
+                                                  { return parameters.text("Geometry", entry); }));
+        check_surfaces(volumes, *mesh,
                        [&](const std::string &problem)
                        { parameters.reject("Geometry", "Surfaces", problem); });
-        geometry.mesh = std::make_shared<const HexahedralMesh>(std::move(mesh));
+        geometry.mesh = mesh;
       },
       nullptr,
       [](const GeometryText &text)
@@ -152,13 +178,13 @@ ShapeKind<3> hexahedra_from_file()
         if (file.empty())
           return SideNames();
         const std::vector<std::string> volumes = words_in(text("Surfaces"));
-        const HexahedralMesh mesh = read_hexahedral_file(file, volumes, drawing_request(text));
-        if (mesh.cells.empty()) // else the entry is refused where the body is read
-          check_surfaces(volumes, mesh,
+        const auto mesh = mesh_of(file, volumes, drawing_request(text));
+        if (mesh->cells.empty()) // else the entry is refused where the body is read
+          check_surfaces(volumes, *mesh,
                          [&](const std::string &problem)
                          { throw InputError(printable(file, 400) + ": Surfaces " + problem); });
-        require_names(mesh.boundaries, file, "surface");
-        return SideNames{mesh.boundaries, {}, /*is_from_file=*/true};
+        require_names(mesh->boundaries, file, "surface");
+        return SideNames{mesh->boundaries, {}, /*is_from_file=*/true};
       },
       false};
 }
