@@ -56,16 +56,16 @@ FaceFrame<dim> FieldFace<dim>::frame(const Point<dim> &reference) const
 {
   FaceFrame<dim> result;
   result.x = map.point(reference);
-  result.normal = condition->held_direction(map.normal(face_no, reference));
   result.measure =
       map.face_measure(face_no, reference) * (is_axisymmetric ? full_turn(result.x) : 1.);
   if constexpr (dim == 2)
+  {
+    result.normal = condition->held_direction(map.normal(face_no, reference));
     result.tangents = {{-cross_product_2d(result.normal)}};
+  }
   else
   {
-    const ContactAxes<dim> axes = condition->contact_direction
-                                      ? contact_axes(result.normal)
-                                      : axes_of_face(map, face_no, reference);
+    const ContactAxes<dim> axes = axes_of_face(map, face_no, reference, *condition);
     result.normal = axes.normal;
     result.tangents = axes.tangents;
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/plane/face_axes.h>
 #include <hpvi/space/box_tables.h>
 
 #include <deal.II/base/geometry_info.h>
@@ -178,8 +177,9 @@ FaceContactDofs BoxTables<dim>::moments_of(const CellMap<dim> &map, const unsign
 
 /** By p+2 points a direction, as gaps are taken. */
 template <int dim>
-FaceContactDofs BoxTables<dim>::curved_moments_of(const CellMap<dim> &map,
-                                                  const unsigned int face) const
+FaceContactDofs BoxTables<dim>::curved_moments_of(
+    const CellMap<dim> &map, const unsigned int face,
+    const std::function<ContactAxes<dim>(const Point<dim> &)> &axes) const
 {
   const unsigned int n = inner[face].size(), n_rim = rim[face].size();
   const BoxTable<dim> table = tabulate_face(scalar(), QGauss<dim - 1>(degree + 2), face);
@@ -189,7 +189,7 @@ FaceContactDofs BoxTables<dim>::curved_moments_of(const CellMap<dim> &map,
   result.W.reinit(dim * n, dim * n_rim);
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
-    const ContactAxes<dim> axes = axes_of_face(map, face, table.points[q]);
+    const ContactAxes<dim> here = axes(table.points[q]);
     const double ds = table.weights[q] * map.face_measure(face, table.points[q]);
     for (unsigned int k = 0; k < n; ++k)
     {
@@ -198,7 +198,7 @@ FaceContactDofs BoxTables<dim>::curved_moments_of(const CellMap<dim> &map,
       for (unsigned int own = 0; own < dim; ++own)
         for (unsigned int c = 0; c < dim; ++c)
         {
-          const double part = weight * (own == dim - 1 ? axes.normal : axes.tangents[own])[c];
+          const double part = weight * (own == dim - 1 ? here.normal : here.tangents[own])[c];
           for (unsigned int j = 0; j < n; ++j)
             result.M(own * n + k, c * n + j) += part * table.values(q, inner[face][j]);
           for (unsigned int j = 0; j < n_rim; ++j)

@@ -3,6 +3,7 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/base/text.h>
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/face_axes.h>
 #include <hpvi/plane/mesh.h>
 #include <hpvi/space/contact_statics.h>
 
@@ -305,12 +306,14 @@ std::vector<ContactSpot> ContactStatics::ends_of(const ContactDofFace<3> &face) 
   {
     const unsigned int corner = GeometryInfo<3>::face_to_cell_vertices(face.face, v);
     const Point<3> x = map.vertices()[corner];
-    result.push_back({x,
-                      face.is_curved()
-                          ? map.normal(face.face, GeometryInfo<3>::unit_cell_vertex(corner))
-                          : face.axes.normal,
-                      boundary.friction ? boundary.friction.at(x) : FrictionLimit(), 0., true,
-                      !boundary.is_unilateral(), bodies_at(face)});
+    result.push_back(
+        {x,
+         face.is_curved()
+             ? axes_of_face(map, face.face, GeometryInfo<3>::unit_cell_vertex(corner), boundary)
+                   .normal
+             : face.axes.normal,
+         boundary.friction ? boundary.friction.at(x) : FrictionLimit(), 0., true,
+         !boundary.is_unilateral(), bodies_at(face)});
   }
   return result;
 }

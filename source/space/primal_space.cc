@@ -152,10 +152,12 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
   const CellMap<dim> map = map_of<dim>(cell);
   if (map.is_curved())
   {
-    face.own = std::make_shared<const FaceContactDofs>(tables.curved_moments_of(map, number));
+    const auto axes = [&](const Point<dim> &x) { return axes_of_face(map, number, x, boundary); };
+    face.own = std::make_shared<const FaceContactDofs>(tables.curved_moments_of(map, number, axes));
     for (const Point<dim> &x : tables.moment_points[number].points)
-      face.turning.push_back(axes_of_face(map, number, x));
+      face.turning.push_back(axes(x));
     face.axes = face.turning[face.turning.size() / 2];
+    face.axes.axis = ContactAxes<dim>::none; // all components are contact dofs
     return face;
   }
   const auto corner = [&](const unsigned int v)

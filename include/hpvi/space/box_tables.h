@@ -3,6 +3,7 @@
 #define hpvi_box_tables_h
 
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/scene/contact_axes.h>
 #include <hpvi/scene/material.h>
 
 #include <deal.II/base/point.h>
@@ -98,8 +99,10 @@ public:
   /** Of a face whose measure is not constant: `m_k = int psi_k u ds / int psi_k ds`. */
   FaceContactDofs moments_of(const CellMap<dim> &map, unsigned int face) const;
 
-  /** Of a face of a curved cell: `m_kd = int psi_k u.e_d ds / int psi_k ds`, e_d the directions of axes_of_face(). */
-  FaceContactDofs curved_moments_of(const CellMap<dim> &map, unsigned int face) const;
+  /** Of a face of a curved cell: `m_kd = int psi_k u.e_d ds / int psi_k ds`, e_d the directions of @p axes. */
+  FaceContactDofs
+  curved_moments_of(const CellMap<dim> &map, unsigned int face,
+                    const std::function<ContactAxes<dim>(const dealii::Point<dim> &)> &axes) const;
 
   /** T of `u = T v` on a box: @p components[dim face + component] says where v has contact dofs for inner nodes. */
   dealii::FullMatrix<double> basis_of_moments(const std::vector<bool> &components) const;
