@@ -219,8 +219,7 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
     if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
         mesh && !mesh->bent.empty() && scene.exact_solution)
       return Objection{"Exact solution", "Solution",
-                       "is not offered on meshes with curved faces, whose tractions turn between "
-                       "nodes; remove it, or give a mesh of plane faces"};
+                       "is not offered on curved faces; remove it, or give a mesh of plane faces"};
   if (!scene.pretensions.empty())
     return Objection{"Pretension " + scene.pretensions.front().name, "Through",
                      "is not offered by " + why +
