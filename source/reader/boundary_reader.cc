@@ -208,8 +208,8 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
   { return (*normal)(x); };
   if constexpr (dim == 3)
     if (const HexahedralMesh *const mesh = hexahedra_of(geometry); mesh && !mesh->bent.empty())
-      normal = [normals = std::make_shared<const CurvedNormals>(*mesh, boundary.side)](const Point<3> &x)
-      { return (*normals)(x); };
+      normal = [normals = std::make_shared<const CurvedNormals>(*mesh, boundary.side)](
+                   const Point<3> &x) { return (*normals)(x); };
   if (has_one_normal)
     normal = [n = common_normal(side)](const Point<dim> &) { return n; };
   add("Pressure", -1, normal);
