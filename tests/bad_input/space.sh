@@ -177,6 +177,7 @@ foot "Boundary side" "this scene has" -- '' --set "Boundary side/Pressure=1"
 foot "Boundary bottom/Curve" "unknown entry" -- '' --set "Boundary bottom/Curve=circle"
 foot "Subdivisions" "no meaning for a file" -- '' --set "Geometry/Subdivisions=2, 2, 2"
 foot "Geometry/File" "names no mesh" -- '' --set "Geometry/File="
+foot "foot.prm: Geometry/File: " "is a directory" "name a drawing or a mesh" -- '' --set "Geometry/File=meshes"
 
 # --- methods, laws and paths that space does not have
 for method in pu hpa1 hpa2 hpa3; do

@@ -123,12 +123,11 @@ std::shared_ptr<const HexahedralMesh> mesh_of(const std::string &path,
   const auto make = [&]()
   { return std::make_shared<const HexahedralMesh>(read_hexahedral_file(path, volumes, request)); };
   std::error_code error;
-  const auto time = std::filesystem::last_write_time(path, error);
-  if (error) // what is given by code is no file
+  if (!std::filesystem::is_regular_file(path, error)) // given by code, or to be refused
     return make();
-  const Key key(std::filesystem::absolute(path).lexically_normal().string(), time,
-                std::filesystem::file_size(path), volumes, request.size, request.curvature,
-                request.unit, request.curves);
+  const Key key(std::filesystem::absolute(path).lexically_normal().string(),
+                std::filesystem::last_write_time(path), std::filesystem::file_size(path), volumes,
+                request.size, request.curvature, request.unit, request.curves);
   return memoised(known, key, make);
 }
 } // namespace
