@@ -145,6 +145,11 @@ public:
       Tensor<1, 3> value;
       for (unsigned int c = 0; c < 3; ++c)
         value[c] = u[c * table.points.size() + k];
+      if (face.map.is_curved()) // u is a polynomial there, its tangential part is none
+      {
+        slip.push_back(value);
+        continue;
+      }
       const Tensor<1, 3> past_opposite =
           field.opposite(face, table.points[k]) - field.change_opposite(face, table.points[k]);
       slip.push_back(frame.tangential(value - past_opposite) - field.past_slip(face, frame.x));
@@ -201,12 +206,21 @@ private:
           const FaceFrame<3> frame = face.frame(reference);
           u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
         }
-        sum += gauss.weight(q) * gauss.weight(r) * measure(on_face) * bound * u.norm();
+        double ds = 0;
+        if (face.map.is_curved())
+        {
+          const FaceFrame<3> frame = face.frame(reference);
+          u = frame.tangential(u) - field.past_slip(face, frame.x);
+          ds = frame.measure;
+        }
+        else
+          ds = measure(on_face);
+        sum += gauss.weight(q) * gauss.weight(r) * ds * bound * u.norm();
       }
     return width * width * sum;
   }
 
-  /** ds over that of the reference face: bilinear, for faces in contact are plane. */
+  /** ds over that of the reference face, of a plane one: bilinear. */
   double measure(const Point<2> &x) const
   {
     return (1 - x[1]) * ((1 - x[0]) * measures[0] + x[0] * measures[1]) +
@@ -235,7 +249,7 @@ private:
   const FieldFace<3> &face;
   const Field<3> &field;
   HalvedBasis &basis;
-  std::vector<Tensor<1, 3>> slip;  ///< at nodes(), of the own side alone
+  std::vector<Tensor<1, 3>> slip;  ///< at nodes(), of the own side alone; of a curved face u
   std::vector<Tensor<1, 3>> lines; ///< of on_square()
   std::array<double, 4> measures;  ///< at the corners
 };
