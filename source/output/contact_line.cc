@@ -3,9 +3,11 @@
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/vtk_file.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 namespace hpvi
@@ -72,13 +74,17 @@ public:
       : slave(scene.boundaries[state.slave]), side(sides[state.slave]),
         sign(state.slave == state.boundary ? 1. : -1.)
   {
+    if constexpr (dim == 3)
+      if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
+          mesh && !mesh->bent.empty())
+        curved = std::make_shared<const CurvedNormals>(*mesh, slave.side);
   }
 
   /** Of its components. */
   Tensor<1, dim> vector(const ContactPoint<dim> &point, const double normal_part,
                         const Tangential<dim> &tangential_part) const
   {
-    const Tensor<1, dim> n = sign * slave.held_direction(side.normal(point.x));
+    const Tensor<1, dim> n = sign * slave.held_direction(normal(point.x));
     if constexpr (dim == 2)
       return normal_part * n - tangential_part * cross_product_2d(n);
     else
@@ -86,8 +92,17 @@ public:
   }
 
 private:
+  Tensor<1, dim> normal(const Point<dim> &x) const
+  {
+    if constexpr (dim == 3)
+      if (curved)
+        return (*curved)(x);
+    return side.normal(x);
+  }
+
   const BoundaryCondition<dim> &slave;
   const Side<dim> &side;
+  std::shared_ptr<const CurvedNormals> curved; ///< of a mesh with curved faces
   const double sign;
 };
 

@@ -270,7 +270,11 @@ template <int dim>
 double CellMap<dim>::longest_edge() const
 {
   const auto lengths = edge_lengths<dim>(corners);
-  return *std::max_element(lengths.begin(), lengths.end());
+  double bulge = 0;
+  if constexpr (dim == 3)
+    for (unsigned int k = 0; curved && k < curved->size(); ++k)
+      bulge = std::max(bulge, (*curved)[k].norm());
+  return *std::max_element(lengths.begin(), lengths.end()) + 2 * bulge;
 }
 
 template <int dim>

@@ -191,7 +191,10 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
   using Direction = typename TurningLoad<dim>::Direction;
   const std::vector<Point<dim>> points = side.sample();
   boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
-  const bool has_one_normal = common_normal(side).norm() > 0; // also as edges of a mesh
+  bool has_one_normal = common_normal(side).norm() > 0; // also as edges of a mesh
+  if constexpr (dim == 3) // chords of one direction may belong to a face that is curved
+    if (const HexahedralMesh *const mesh = hexahedra_of(geometry); mesh && !mesh->bent.empty())
+      has_one_normal = false;
   const auto add = [&](const std::string &entry, const double sign, const Direction &direction)
   {
     const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];

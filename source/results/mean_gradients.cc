@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <deal.II/base/quadrature_lib.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/results/mean_gradients.h>
 #include <hpvi/results/probe_value.h>
@@ -36,6 +37,20 @@ double MeanGradient<dim>::rotation() const
   return 0.5 * std::sqrt(curl_square);
 }
 
+namespace
+{
+/** Of a triquadratic map, whose det J has the degree 5 along each axis. */
+template <int dim>
+double volume_of(const CellMap<dim> &map)
+{
+  const QGauss<dim> rule(3);
+  double result = 0;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+    result += rule.weight(q) * determinant(map.jacobian(rule.point(q)));
+  return result;
+}
+} // namespace
+
 template <int dim>
 std::vector<MeanGradient<dim>> mean_gradients(const Field<dim> &field)
 {
@@ -51,10 +66,10 @@ std::vector<MeanGradient<dim>> mean_gradients(const Field<dim> &field)
     while (coarse->level() > 0)
       coarse = coarse->parent();
     double *const sum = &sums[n * coarse->index()];
-    sum[n - 1] += cell->measure();
     const unsigned int p = field.degree(cell);
     const std::vector<double> coefficients = field.coefficients(cell);
     const CellMap<dim> map = map_of<dim>(cell);
+    sum[n - 1] += dim == 3 && map.is_curved() ? volume_of(map) : cell->measure();
     for (const unsigned int f : cell->face_indices())
     {
       const ShapeTable<dim> &table = field.tables.face(p, f, p + 1);

@@ -127,6 +127,8 @@ void append(const HexahedralMesh &own, const unsigned int body, const unsigned i
       corner += first_corner;
     all.hexahedra.push_back(corners);
   }
+  for (const auto &[cell, nodes] : own.bent)
+    all.bent[first_cell + cell] = nodes;
   for (HexahedralMesh::Face face : own.faces)
   {
     for (unsigned int &corner : face.vertices)

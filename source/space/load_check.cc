@@ -158,7 +158,9 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene, const Triangulation<dim> &mes
   const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
                         const std::string &name)
   {
-    const Parts<dim> parts(scene, face, std::any_of(load.begin(), load.end(), varies<dim>));
+    const Parts<dim> parts(scene, face,
+                           map.is_curved() ||
+                               std::any_of(load.begin(), load.end(), varies<dim>)); // ds may vary
     Tensor<1, dim> coarse, fine;
     if (parts.once != parts.often)
       for_each_point<dim>(map, face, parts.n_gauss, parts.once,

@@ -171,6 +171,22 @@ TEST(CurvedHexahedra, ConvergeToLame)
     }
 }
 
+/** int n ds is that of the projections; one arc has chords of one direction, and a part makes sides anew. */
+TEST(CurvedHexahedra, ArePressedAlongTheirNormalsBesideParts)
+{
+  const Overrides pressure{{"Boundary left/Pressure", "1"}};
+  for (const Overrides &part :
+       {Overrides{}, {{"Boundary part/On", "right"}, {"Boundary part/Where", "1"}}})
+    steps_of<3>(ring_scene(1, 27, pressure + part),
+                [](const StepReport<3> &step)
+                {
+                  const Tensor<1, 3> force = step.equilibrium.loads.force;
+                  EXPECT_LT((force - Tensor<1, 3>({0.5, 0.5, 0})).norm(), 1e-10) << force;
+                  for (const Warning &warning : step.warnings)
+                    EXPECT_NE(warning.kind, WarningKind::load) << warning.text;
+                });
+}
+
 /** A shaft that is too thick by what a pressure 1 gives way: pressures and their sum. */
 TEST(CurvedHexahedra, FitOntoAShaft)
 {
@@ -265,9 +281,37 @@ TEST(CurvedHexahedra, AreRefusedWhereFacesMustBePlane)
        {std::pair("Boundary right/Symmetry", "true"), {"Boundary right/Contact", "bilateral"}})
   {
     const std::string line = refused({{entry, value}});
-    EXPECT_NE(line.find("which is curved, and space offers that of plane faces"), std::string::npos)
+    EXPECT_NE(
+        line.find("of a curved cell, and space offers that where it is plane, without friction"),
+        std::string::npos)
         << line;
   }
+  EXPECT_NE(refused({{"Boundary bottom/Symmetry", "false"},
+                     {"Boundary bottom/Contact", "bilateral"},
+                     {"Boundary bottom/Friction bound", "1"}})
+                .find("where it is plane, without friction"),
+            std::string::npos);
   EXPECT_EQ(refused({{"Boundary right/Contact", "unilateral"}}), "");
+}
+
+/** Cells of one body keep their nodes where it stands beside others. */
+TEST(CurvedHexahedra, AreCurvedBesideOtherBodies)
+{
+  Grid{{{1, 4, 1}}, ring, false, Grid::everywhere, 27}.write("curved-two.msh");
+  std::ofstream("curved-two.prm")
+      << "set Dimension = 3\nsubsection Body ring\n  set Shape = file\n  set File = curved-two.msh\nend\n"
+         "subsection Body block\n  set Lower corner = 0, 0, -1\n  set Upper corner = 2, 2, 0\nend\n"
+         "subsection Boundary block.front\n  set Displacement = 0; 0; 0\nend\n"
+         "subsection Boundary ring.back\n  set Displacement = 0; 0; 0\nend\n";
+  const Scene<3> scene = read_scene<3>("curved-two.prm", {});
+  EXPECT_EQ(hexahedra_of(scene.geometry)->bent.size(), 4U);
+  const std::string line = ::failure_of<InputError>(
+      [&]() {
+        read_scene<3>("curved-two.prm", {{"Contact joint/Between", "ring.front, block.back"}});
+      });
+  EXPECT_NE(line.find("of a curved cell, and space offers that of plane cells"), std::string::npos)
+      << line;
+  std::filesystem::remove("curved-two.prm");
+  std::filesystem::remove("curved-two.msh");
 }
 } // namespace

@@ -17,8 +17,9 @@ PAGES = {path.stem: path.read_text() for path in sorted((ROOT / "doc/manual").gl
 
 def entries():
     """Section/Entry of all that the program knows, Boundary NAME for each boundary."""
-    section, found = "", set()
-    listing = subprocess.run([HPVI, "--print-parameters"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    section, found, listing = "", set(), ""
+    for scene in ([], [ROOT / "prm/slab.prm"]):  # of the plane, and of space
+        listing += subprocess.run([HPVI, "--print-parameters", *scene], stdout=subprocess.PIPE, text=True, check=True).stdout
     for line in map(str.strip, listing.splitlines()):
         if line.startswith("subsection "):
             section = re.sub("Boundary .*", "Boundary NAME", line[len("subsection "):])

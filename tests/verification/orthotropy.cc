@@ -324,15 +324,6 @@ std::string refusal(const Scene<dim> &scene)
 
 TEST(Orthotropy, IsRefusedWhereItIsNotOffered)
 {
-  Scene<3> space;
-  for (auto &component : space.boundaries[0].displacement)
-    component = expression<3>(0.);
-  EXPECT_EQ(refusal(space), "");
-  space.materials[0].orthotropy = Orthotropy{};
-  EXPECT_NE(refusal(space).find("Material/Elasticity = orthotropic: is not offered by space"),
-            std::string::npos)
-      << refusal(space);
-
   Scene<2> plane = scene_of(fibres(3, 10) + Overrides{{"Boundary left/Displacement", "0; 0"}});
   EXPECT_EQ(refusal(plane), "");
   plane.parameters = nullptr;

@@ -8,7 +8,6 @@
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/reader/shapes/shape.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
 #include <array>
@@ -215,11 +214,6 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
       return Objection{section_of(boundary), "Spring",
                        "is not offered by " + why +
                            "; run the reduced path on one process, or remove it"};
-  if constexpr (dim == 3)
-    if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
-        mesh && !mesh->bent.empty() && scene.exact_solution)
-      return Objection{"Exact solution", "Solution",
-                       "is not offered on curved faces; remove it, or give a mesh of plane faces"};
   if (!scene.pretensions.empty())
     return Objection{"Pretension " + scene.pretensions.front().name, "Through",
                      "is not offered by " + why +

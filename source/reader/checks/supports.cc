@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace hpvi
@@ -168,11 +169,12 @@ void check_curved_faces(const Scene<3> &scene)
       if (face.boundary != boundary.side || mesh.bent.count(face.cell) == 0)
         continue;
       const std::string at = to_string(mesh.corners[face.vertices[0]]);
-      if (boundary.holds_normal() && !is_plane(mesh, face))
+      if (boundary.holds_normal() &&
+          (!is_plane(mesh, face) || (!boundary.symmetry && boundary.friction)))
         reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Contact",
                "holds u_n = 0 on the face at " + at +
-                   ", which is curved, and space offers that of plane faces; give it a "
-                   "Displacement, or set Contact = unilateral");
+                   " of a curved cell, and space offers that where it is plane, without friction; "
+                   "give it a Displacement, or set Contact = unilateral");
       if (boundary.contact_direction)
         reject(scene, section_of(boundary), "Contact direction",
                "is given on the face at " + at +
@@ -215,7 +217,7 @@ public:
     if constexpr (dim == 3)
       if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
           mesh && !mesh->bent.empty())
-        curved.emplace(*mesh, boundary.side);
+        curved = std::make_shared<const CurvedNormals>(*mesh, boundary.side);
   }
 
   std::vector<Tensor<1, dim>> operator()(const Point<dim> &x) const
@@ -236,7 +238,7 @@ private:
   }
 
   const Side<dim> &side;
-  std::optional<CurvedNormals> curved;
+  std::shared_ptr<const CurvedNormals> curved;
 };
 } // namespace
 
