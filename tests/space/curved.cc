@@ -299,7 +299,8 @@ TEST(CurvedHexahedra, AreCurvedBesideOtherBodies)
 {
   Grid{{{1, 4, 1}}, ring, false, Grid::everywhere, 27}.write("curved-two.msh");
   std::ofstream("curved-two.prm")
-      << "set Dimension = 3\nsubsection Body ring\n  set Shape = file\n  set File = curved-two.msh\nend\n"
+      << "set Dimension = 3\nsubsection Body ring\n  set Shape = file\n  set File = "
+         "curved-two.msh\nend\n"
          "subsection Body block\n  set Lower corner = 0, 0, -1\n  set Upper corner = 2, 2, 0\nend\n"
          "subsection Boundary block.front\n  set Displacement = 0; 0; 0\nend\n"
          "subsection Boundary ring.back\n  set Displacement = 0; 0; 0\nend\n";
