@@ -10,7 +10,7 @@ ContactAxes<dim> axes_of_face(const CellMap<dim> &map, const unsigned int face,
                               const Point<dim> &reference, const BoundaryCondition<dim> &boundary)
 {
   if constexpr (dim == 3)
-    if (map.is_curved() && !boundary.contact_direction)
+    if (map.is_curved()) // where no `Contact direction` is offered
     {
       ContactAxes<3> result;
       const Tensor<1, 3> along =

@@ -3,6 +3,7 @@
 #include "grid.h"
 
 #include <hpvi/base/input_error.h>
+#include <hpvi/results/mean_gradients.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
@@ -106,6 +107,8 @@ TEST(CurvedHexahedra, HaveConstantStress)
                                       .norm(),
                                   1e-10);
                       EXPECT_LT(step.norms.total, 1e-8);
+                      for (const MeanGradient<3> &mean : mean_gradients(step.field))
+                        EXPECT_LT((mean.value - B).norm(), 1e-10);
                     });
       }
 }
