@@ -3,11 +3,10 @@
 #include <hpvi/output/contact_table.h>
 #include <hpvi/output/vtk_file.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/hexahedral_mesh.h>
+#include <hpvi/scene/side_normals.h>
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <numeric>
 
 namespace hpvi
@@ -71,13 +70,9 @@ class Frames
 public:
   Frames(const Scene<dim> &scene, const ContactState<dim> &state,
          const std::vector<Side<dim>> &sides)
-      : slave(scene.boundaries[state.slave]), side(sides[state.slave]),
+      : slave(scene.boundaries[state.slave]), normal(sides[state.slave]),
         sign(state.slave == state.boundary ? 1. : -1.)
   {
-    if constexpr (dim == 3)
-      if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
-          mesh && !mesh->bent.empty())
-        curved = std::make_shared<const CurvedNormals>(*mesh, slave.side);
   }
 
   /** Of its components. */
@@ -92,17 +87,8 @@ public:
   }
 
 private:
-  Tensor<1, dim> normal(const Point<dim> &x) const
-  {
-    if constexpr (dim == 3)
-      if (curved)
-        return (*curved)(x);
-    return side.normal(x);
-  }
-
   const BoundaryCondition<dim> &slave;
-  const Side<dim> &side;
-  std::shared_ptr<const CurvedNormals> curved; ///< of a mesh with curved faces
+  const SideNormals<dim> normal;
   const double sign;
 };
 

@@ -121,7 +121,7 @@ const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
   const std::vector<Side<dim>> sides = sides_of(scene);
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
     if (boundary.holds_normal() && !boundary.contact_direction)
-      for (const CurvePiece &curve : sides[boundary.id].curves)
+      for (const auto &curve : sides[boundary.id].curves)
         if (curve)
           return &boundary;
   return nullptr;

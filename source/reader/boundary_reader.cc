@@ -7,7 +7,6 @@
 #include <hpvi/reader/plate_reader.h>
 #include <hpvi/reader/scene_entries.h>
 #include <hpvi/scene/boundary_parts.h>
-#include <hpvi/scene/hexahedral_mesh.h>
 #include <hpvi/scene/side_normals.h>
 
 #include <deal.II/base/patterns.h>
@@ -184,17 +183,13 @@ private:
 /** Traction, pressure and shear as one load. */
 template <int dim>
 void read_loads(const ExpressionReader<dim> &expressions, const std::string &section,
-                const Geometry<dim> &geometry, const Side<dim> &side,
-                const typename ExpressionReader<dim>::ExactField &exact,
+                const Side<dim> &side, const typename ExpressionReader<dim>::ExactField &exact,
                 BoundaryCondition<dim> &boundary)
 {
   using Direction = typename TurningLoad<dim>::Direction;
   const std::vector<Point<dim>> points = side.sample();
   boundary.traction = expressions.template read<dim>(section, "Traction", "0", points, exact);
-  bool has_one_normal = common_normal(side).norm() > 0; // also as edges of a mesh
-  if constexpr (dim == 3) // chords of one direction may belong to a face that is curved
-    if (const HexahedralMesh *const mesh = hexahedra_of(geometry); mesh && !mesh->bent.empty())
-      has_one_normal = false;
+  const bool has_one_normal = common_normal(side).norm() > 0; // also as edges of a mesh
   const auto add = [&](const std::string &entry, const double sign, const Direction &direction)
   {
     const Expression<dim> load = expressions.template read<1>(section, entry, "0", points)[0];
@@ -209,10 +204,6 @@ void read_loads(const ExpressionReader<dim> &expressions, const std::string &sec
     return;
   Direction normal = [normal = std::make_shared<const SideNormals<dim>>(side)](const Point<dim> &x)
   { return (*normal)(x); };
-  if constexpr (dim == 3)
-    if (const HexahedralMesh *const mesh = hexahedra_of(geometry); mesh && !mesh->bent.empty())
-      normal = [normals = std::make_shared<const CurvedNormals>(*mesh, boundary.side)](
-                   const Point<3> &x) { return (*normals)(x); };
   if (has_one_normal)
     normal = [n = common_normal(side)](const Point<dim> &) { return n; };
   add("Pressure", -1, normal);
@@ -328,7 +319,7 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
   }
   boundary.displacement =
       expressions.template read<dim>(section, "Displacement", "free", points, exact_displacement);
-  read_loads<dim>(expressions, section, scene.geometry, side, exact_traction, boundary);
+  read_loads<dim>(expressions, section, side, exact_traction, boundary);
   boundary.symmetry = parameters.boolean(section, "Symmetry");
   read_spring(parameters, expressions, section, points, boundary);
   if constexpr (dim == 2)

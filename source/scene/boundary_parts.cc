@@ -27,9 +27,13 @@ types::boundary_id boundary_at(const Scene<dim> &scene, const unsigned int side,
 template <int dim>
 Point<dim> middle_of(const CoarseFace<dim> &face)
 {
-  if constexpr (dim == 2)
-    if (face.curve)
+  if (face.curve)
+  {
+    if constexpr (dim == 2)
       return face.curve.point(0.5);
+    else
+      return face.curve.point(Point<2>(0.5, 0.5));
+  }
   return centre_of<dim>(face.corners);
 }
 
@@ -71,8 +75,13 @@ std::vector<CoarseFace<3>> faces_of_mesh(const HexahedralMesh &mesh, const unsig
   std::vector<CoarseFace<3>> result;
   for (const HexahedralMesh::Face &face : mesh.faces)
     if (face.boundary == side)
+    {
+      const auto bent = mesh.bent.find(face.cell);
       result.push_back(
-          {mesh.corners_of(face), centre_of(mesh.corners_of(face.cell)), {}, face.cell});
+          {mesh.corners_of(face),
+           bent == mesh.bent.end() ? centre_of(mesh.corners_of(face.cell)) : bent->second[13],
+           mesh.curve_of(face), face.cell});
+    }
   return result;
 }
 } // namespace
@@ -158,10 +167,14 @@ Tensor<1, dim> common_normal(const Side<dim> &side)
   {
     Tensor<1, dim> normal;
     if constexpr (dim == 3)
+    {
+      if (const CurvedFace curve = side.curve(k); curve && !curve.is_plane())
+        return {};
       normal = normal_of(side.pieces[k]);
+    }
     else
     {
-      if (!side.curves.empty() && side.curves[k])
+      if (side.curve(k))
         return {};
       normal = side.normal(k, 0.5);
     }

@@ -149,53 +149,75 @@ void add_springs(const BoundaryCondition<2> &boundary, const Side<2> &side, cons
     }
 }
 
-/** Likewise in space, where a piece is a quadrilateral; along it springs hold in both directions. */
+/** Where conditions on motions are asked for on a piece in space, with its normals: at its corners, or at the nodes that it follows. */
+std::vector<std::pair<Point<3>, Tensor<1, 3>>> places_on(const Side<3> &side,
+                                                         const unsigned int piece)
+{
+  std::vector<std::pair<Point<3>, Tensor<1, 3>>> result;
+  if (const CurvedFace curve = side.curve(piece); curve && !side.is_flat())
+    for (unsigned int k = 0; k < curve.nodes().size(); ++k)
+      result.emplace_back(curve.nodes()[k], curve.normal(Point<2>(k % 3 / 2., k / 3 / 2.)));
+  else
+    for (const Point<3> &corner : side.pieces[piece])
+      result.emplace_back(corner, side.is_flat() ? side.outward : normal_of(side.pieces[piece]));
+  return result;
+}
+
+/** Likewise in the plane. */
+std::vector<std::pair<Point<2>, Tensor<1, 2>>> places_on(const Side<2> &side,
+                                                         const unsigned int piece)
+{
+  std::vector<std::pair<Point<2>, Tensor<1, 2>>> result;
+  if (side.is_flat())
+    for (const Point<2> &end : side.pieces[piece])
+      result.emplace_back(end, side.outward);
+  else
+    for (unsigned int i = 0; i <= 4; ++i)
+      result.emplace_back(side.point(piece, i / 4.), side.normal(piece, i / 4.));
+  return result;
+}
+
+/** Likewise in space, where along a piece springs hold in both directions. */
 void add_springs(const BoundaryCondition<3> &boundary, const Side<3> &side, const Point<3> &centre,
                  const double length, std::vector<RigidMotion<3>> &held)
 {
   constexpr unsigned int n = 44; // 2000 points, as in the plane
-  const auto acts = [](const Expression<3> &stiffness, const Side<3>::Piece &corners)
+  const auto acts = [&](const Expression<3> &stiffness, const unsigned int piece)
   {
+    const CurvedFace curve = side.curve(piece);
+    const Side<3>::Piece &corners = side.pieces[piece];
     for (unsigned int i = 0; stiffness && i < n * n; ++i)
     {
       const double s = (i % n + 0.5) / n, t = (i / n + 0.5) / n;
       const Point<3> low = corners[0] + s * (corners[1] - corners[0]),
                      high = corners[2] + s * (corners[3] - corners[2]);
-      if (stiffness->value(low + t * (high - low)) != 0)
+      if (stiffness->value(curve ? curve.point(Point<2>(s, t)) : low + t * (high - low)) != 0)
         return true;
     }
     return false;
   };
-  for (const Side<3>::Piece &corners : side.pieces)
+  for (unsigned int piece = 0; piece < side.pieces.size(); ++piece)
   {
-    const Tensor<1, 3> normal = side.is_flat() ? side.outward : normal_of(corners);
-    std::vector<Tensor<1, 3>> directions;
-    if (acts(boundary.spring.normal, corners))
-      directions.push_back(normal);
-    if (acts(boundary.spring.tangential, corners))
+    const bool is_normal = acts(boundary.spring.normal, piece),
+               is_tangential = acts(boundary.spring.tangential, piece);
+    for (const auto &[x, normal] : places_on(side, piece))
+    {
+      if (is_normal)
+        held.push_back(row_of(normal, (x - centre) / length));
       for (const Tensor<1, 3> &tangent : contact_axes(normal).tangents)
-        directions.push_back(tangent);
-    for (const Point<3> &corner : corners)
-      for (const Tensor<1, 3> &direction : directions)
-        held.push_back(row_of(direction, (corner - centre) / length));
+        if (is_tangential)
+          held.push_back(row_of(tangent, (x - centre) / length));
+    }
   }
 }
 
-/** Where conditions on motions are asked for on a side, with its normals: at the corners of each piece, and along curves. */
 template <int dim>
 std::vector<std::pair<Point<dim>, Tensor<1, dim>>> places_on(const Side<dim> &side)
 {
   std::vector<std::pair<Point<dim>, Tensor<1, dim>>> result;
-  for (unsigned int k = 0; k < side.pieces.size(); ++k)
-    if (side.is_flat())
-      for (const Point<dim> &corner : side.pieces[k])
-        result.emplace_back(corner, side.outward);
-    else if constexpr (dim == 3)
-      for (const Point<dim> &corner : side.pieces[k])
-        result.emplace_back(corner, normal_of(side.pieces[k]));
-    else
-      for (unsigned int i = 0; i <= 4; ++i)
-        result.emplace_back(side.point(k, i / 4.), side.normal(k, i / 4.));
+  for (unsigned int piece = 0; piece < side.pieces.size(); ++piece)
+    for (const auto &place : places_on(side, piece))
+      result.push_back(place);
   return result;
 }
 

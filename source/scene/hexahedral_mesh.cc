@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/inverse_map.h>
+#include <hpvi/base/quadratics.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -32,19 +33,6 @@ Side<3>::Piece HexahedralMesh::corners_of(const Face &face) const
     result[v] = corners[face.vertices[v]];
   return result;
 }
-
-namespace
-{
-/** Lagrange's quadratics at 0, 1/2 and 1, or a derivative of them. */
-std::array<double, 3> quadratics(const double x, const unsigned int order)
-{
-  if (order == 0)
-    return {{(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)}};
-  if (order == 1)
-    return {{4 * x - 3, 4 - 8 * x, 4 * x - 1}};
-  return {{4, -8, 4}};
-}
-} // namespace
 
 Tensor<1, 3> triquadratic(const std::array<Tensor<1, 3>, 27> &a, const Point<3> &xi,
                           const std::array<unsigned int, 3> &order)
@@ -95,45 +83,6 @@ double area_of(const Side<3>::Piece &piece)
 
 namespace
 {
-/** The nodes of a face, x fastest along it; (1-0) x (3-0) points outwards. */
-std::array<Point<3>, 9> nodes_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
-{
-  if (mesh.bent.count(face.cell) == 0)
-  {
-    const Side<3>::Piece p = mesh.corners_of(face);
-    const auto between = [](const Point<3> &a, const Point<3> &b) { return a + (b - a) / 2.; };
-    const Point<3> low = between(p[0], p[1]), high = between(p[2], p[3]);
-    return {{p[0], low, p[1], between(p[0], p[2]), between(low, high), between(p[1], p[3]), p[2],
-             high, p[3]}};
-  }
-  const HexahedronNodes &nodes = mesh.bent.at(face.cell);
-  const auto &corners = mesh.hexahedra[face.cell];
-  std::array<unsigned int, 3> place{}; // of corners 0, 1 and 2 of the face among the 27 nodes
-  for (unsigned int k = 0; k < 3; ++k)
-  {
-    const unsigned int v =
-        std::find(corners.begin(), corners.end(), face.vertices[k]) - corners.begin();
-    place[k] = (v & 1) * 2 + (v >> 1 & 1) * 6 + (v >> 2) * 18;
-  }
-  std::array<Point<3>, 9> result;
-  for (int k = 0; k < 9; ++k)
-    result[k] = nodes[int(place[0]) + (k % 3) * (int(place[1]) - int(place[0])) / 2 +
-                      k / 3 * (int(place[2]) - int(place[0])) / 2];
-  return result;
-}
-
-/** Four, around its middle, of a face of a cell that is bent. */
-std::vector<Side<3>::Piece> pieces_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
-{
-  if (mesh.bent.count(face.cell) == 0)
-    return {mesh.corners_of(face)};
-  const auto nodes = nodes_of(mesh, face);
-  std::vector<Side<3>::Piece> result;
-  for (const unsigned int k : {0, 1, 3, 4})
-    result.push_back({{nodes[k], nodes[k + 1], nodes[k + 3], nodes[k + 4]}});
-  return result;
-}
-
 class QuadraticMap
 {
 public:
@@ -175,87 +124,6 @@ private:
   const Point<3> first;
   std::array<Tensor<1, 3>, 27> from_first; ///< far from the origin differences keep their digits
 };
-/** At a point of a face with nodes x_k: `x - x_0` and its derivatives along both coordinates. */
-struct OnFace
-{
-  OnFace(const std::array<Point<3>, 9> &nodes, const Point<2> &xi)
-  {
-    const auto a = quadratics(xi[0], 0), b = quadratics(xi[1], 0), da = quadratics(xi[0], 1),
-               db = quadratics(xi[1], 1);
-    for (unsigned int k = 1; k < 9; ++k)
-    {
-      const Tensor<1, 3> node = nodes[k] - nodes[0];
-      from_first += a[k % 3] * b[k / 3] * node;
-      along[0] += da[k % 3] * b[k / 3] * node;
-      along[1] += a[k % 3] * db[k / 3] * node;
-    }
-  }
-
-  Tensor<1, 3> area_vector() const ///< n ds over that of the unit square
-  {
-    return cross_product_3d(along[0], along[1]);
-  }
-
-  Tensor<1, 3> from_first;
-  std::array<Tensor<1, 3>, 2> along;
-};
-
-/** Where a face is nearest to @p x, by the method of Gauss and Newton, which for points on it is Newton's. */
-Point<2> nearest_on(const std::array<Point<3>, 9> &face, const Point<3> &x)
-{
-  Point<2> xi(0.5, 0.5);
-  for (unsigned int step = 0; step < 30; ++step)
-  {
-    const OnFace here(face, xi);
-    const Tensor<1, 3> rest = (x - face[0]) - here.from_first;
-    Tensor<2, 2> normal;
-    Tensor<1, 2> right;
-    for (unsigned int a = 0; a < 2; ++a)
-    {
-      right[a] = here.along[a] * rest;
-      for (unsigned int b = 0; b < 2; ++b)
-        normal[a][b] = here.along[a] * here.along[b];
-    }
-    const Point<2> old = xi;
-    const Tensor<1, 2> change = invert(normal) * right;
-    for (unsigned int a = 0; a < 2; ++a)
-      xi[a] = std::clamp(xi[a] + change[a], 0., 1.);
-    if (xi.distance(old) < 1e-9) // Newton's next step would be its square
-      break;
-  }
-  return xi;
-}
-
-/** A face is within the hull of its Bezier points, of which in each direction the middle is twice a node less the mean of its ends. */
-std::vector<BoundingBox<3>> boxes_around(const std::vector<std::array<Point<3>, 9>> &faces)
-{
-  std::vector<BoundingBox<3>> result;
-  for (const auto &nodes : faces)
-  {
-    std::vector<Point<3>> points(nodes.begin(), nodes.end());
-    for (const auto &[along, across] : {std::pair(1, 3), {3, 1}})
-      for (unsigned int line = 0; line < 3; ++line)
-      {
-        const unsigned int k = across * line;
-        points[k + along] =
-            points[k + along] +
-            ((points[k + along] - points[k]) + (points[k + along] - points[k + 2 * along])) / 2.;
-      }
-    result.emplace_back(points);
-    result.back().extend(1e-9 * nodes[0].distance(nodes[8]));
-  }
-  return result;
-}
-
-std::vector<std::array<Point<3>, 9>> faces_of(const HexahedralMesh &mesh,
-                                              const unsigned int boundary)
-{
-  std::vector<std::array<Point<3>, 9>> result;
-  for (const HexahedralMesh::Face &face : mesh.faces)
-    if (face.boundary == boundary)
-      result.push_back(nodes_of(mesh, face));
-  return result;
-}
 } // namespace
 
 std::optional<Point<3>> folded_at(const HexahedronNodes &nodes, const double least)
@@ -271,31 +139,29 @@ std::optional<Point<3>> folded_at(const HexahedronNodes &nodes, const double lea
   return std::nullopt;
 }
 
-double area_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
+CurvedFace HexahedralMesh::curve_of(const Face &face) const
 {
-  if (mesh.bent.count(face.cell) == 0)
-    return area_of(mesh.corners_of(face));
-  const auto nodes = nodes_of(mesh, face);
-  const QGauss<2> rule(8);
-  double result = 0;
-  for (unsigned int q = 0; q < rule.size(); ++q)
-    result += rule.weight(q) * OnFace(nodes, rule.point(q)).area_vector().norm();
-  return result;
+  const auto cell = bent.find(face.cell);
+  if (cell == bent.end())
+    return {};
+  const auto &own = hexahedra[face.cell];
+  std::array<int, 3> place{}; // of vertices 0, 1 and 2 of the face among the 27 nodes
+  for (unsigned int k = 0; k < 3; ++k)
+  {
+    const unsigned int v = std::find(own.begin(), own.end(), face.vertices[k]) - own.begin();
+    place[k] = (v & 1) * 2 + (v >> 1 & 1) * 6 + (v >> 2) * 18;
+  }
+  CurvedFace::Nodes nodes;
+  for (int k = 0; k < 9; ++k)
+    nodes[k] = cell->second[place[0] + (k % 3) * (place[1] - place[0]) / 2 +
+                            k / 3 * (place[2] - place[0]) / 2];
+  return CurvedFace(nodes);
 }
 
-bool is_plane(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
+double area_of(const HexahedralMesh &mesh, const HexahedralMesh::Face &face)
 {
-  const std::vector<Side<3>::Piece> pieces = pieces_of(mesh, face);
-  const Tensor<1, 3> normal = normal_of(pieces.front());
-  const double size = pieces.front()[0].distance(pieces.back()[3]);
-  return std::all_of(pieces.begin(), pieces.end(),
-                     [&](const Side<3>::Piece &piece)
-                     {
-                       return std::all_of(
-                           piece.begin(), piece.end(),
-                           [&](const Point<3> &x)
-                           { return std::abs((x - pieces.front()[0]) * normal) <= 1e-8 * size; });
-                     });
+  const CurvedFace curve = mesh.curve_of(face);
+  return curve ? curve.area() : area_of(mesh.corners_of(face));
 }
 
 double volume_of(const HexahedralMesh &mesh, const unsigned int cell)
@@ -343,14 +209,18 @@ std::vector<Side<3>> sides_of_mesh(const HexahedralMesh &mesh)
 {
   std::vector<Side<3>> sides(mesh.boundaries.size());
   for (const HexahedralMesh::Face &face : mesh.faces)
-    for (const Side<3>::Piece &piece : pieces_of(mesh, face))
-      sides[face.boundary].pieces.push_back(piece);
+  {
+    sides[face.boundary].pieces.push_back(mesh.corners_of(face));
+    sides[face.boundary].curves.push_back(mesh.curve_of(face));
+  }
   for (Side<3> &side : sides)
   {
     const Tensor<1, 3> n = normal_of(side.pieces.front());
-    if (std::all_of(side.pieces.begin(), side.pieces.end(),
-                    [&](const Side<3>::Piece &piece)
-                    { return (normal_of(piece) - n).norm() < 1e-8; }))
+    bool is_flat = true;
+    for (unsigned int k = 0; is_flat && k < side.pieces.size(); ++k)
+      is_flat = (normal_of(side.pieces[k]) - n).norm() < 1e-8 &&
+                (!side.curves[k] || side.curves[k].is_plane());
+    if (is_flat)
       side.outward = n;
   }
   return sides;
@@ -387,20 +257,6 @@ bool contains(const HexahedralMesh &mesh, const Point<3> &x, const double hair)
   return false;
 }
 
-CurvedNormals::CurvedNormals(const HexahedralMesh &mesh, const unsigned int boundary)
-    : faces(faces_of(mesh, boundary)), tree(boxes_around(faces))
-{
-}
-
-Tensor<1, 3> CurvedNormals::operator()(const Point<3> &x) const
-{
-  const unsigned int nearest = tree.nearest(
-      x, [&](const unsigned int k)
-      { return (x - faces[k][0] - OnFace(faces[k], nearest_on(faces[k], x)).from_first).norm(); });
-  const Tensor<1, 3> n = OnFace(faces[nearest], nearest_on(faces[nearest], x)).area_vector();
-  return n / n.norm();
-}
-
 std::vector<Point<3>> sample(const HexahedralMesh &mesh)
 {
   const unsigned int n_cells = mesh.hexahedra.size(), n = n_cells > 64 ? 1 : n_cells > 8 ? 2 : 6;
@@ -429,11 +285,13 @@ std::vector<Tensor<1, dim>> normals_at(const Side<dim> &side, const Point<dim> &
     if (side.is_flat())
       return {side.outward};
     std::vector<Tensor<1, 3>> result;
-    for (const Side<3>::Piece &piece : side.pieces)
+    for (unsigned int k = 0; k < side.pieces.size(); ++k)
     {
-      const Tensor<1, 3> n = normal_of(piece);
-      if (distance(piece, x) <= 1e-9 * std::sqrt(area_of(piece)) &&
-          std::none_of(result.begin(), result.end(),
+      const double hair = 1e-9 * std::sqrt(area_of(side.pieces[k]));
+      if (!side.box(k).point_inside(x) || side.distance(k, x) > hair)
+        continue;
+      const Tensor<1, 3> n = side.normal(k, x);
+      if (std::none_of(result.begin(), result.end(),
                        [&](const Tensor<1, 3> &known) { return (known - n).norm() < 1e-8; }))
         result.push_back(n);
     }

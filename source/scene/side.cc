@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/scene/box_tree.h>
+#include <hpvi/scene/edge_path.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <algorithm>
@@ -31,10 +33,14 @@ std::vector<Point<dim>> Side<dim>::sample() const
   for (unsigned int k = 0; k < pieces.size(); ++k)
   {
     const Piece &piece = pieces[k];
-    if (dim == 2 && !curves.empty() && curves[k])
+    if (const Curve own = curve(k))
     {
-      for (unsigned int i = 0; i <= 32; ++i)
-        points.push_back(point(k, i / 32.));
+      if constexpr (dim == 2)
+        for (unsigned int i = 0; i <= n; ++i)
+          points.push_back(point(k, double(i) / n));
+      else
+        for (unsigned int i = 0; i < (n + 1) * (n + 1); ++i)
+          points.push_back(own.point(Point<2>(double(i % (n + 1)) / n, double(i / (n + 1)) / n)));
       continue;
     }
     const auto first = sample_segment(piece[0], piece[n_corners - 2], dim == 2 ? 0 : n),
@@ -44,6 +50,12 @@ std::vector<Point<dim>> Side<dim>::sample() const
         points.push_back(point);
   }
   return points;
+}
+
+template <int dim>
+typename Side<dim>::Curve Side<dim>::curve(const unsigned int piece) const
+{
+  return curves.empty() ? Curve() : curves[piece];
 }
 
 template <int dim>
@@ -72,28 +84,49 @@ Tensor<1, dim> Side<dim>::normal(const unsigned int piece, const double s) const
 
 namespace
 {
-/** Of the point of a segment that is nearest to @p x. */
-template <int dim>
-double nearest_on(const typename Side<dim>::Piece &piece, const Point<dim> &x)
+EdgePath path_of(const Side<2> &side, const unsigned int piece)
 {
-  const Tensor<1, dim> way = piece[1] - piece[0];
-  return std::clamp((x - piece[0]) * way / way.norm_square(), 0., 1.);
-}
-
-template <int dim>
-double nearest_on(const Side<dim> &side, const unsigned int piece, const Point<dim> &x)
-{
-  if constexpr (dim == 2)
-    if (!side.curves.empty() && side.curves[piece])
-      return side.curves[piece].nearest(x);
-  return nearest_on<dim>(side.pieces[piece], x);
+  return {side.pieces[piece], side.curve(piece)};
 }
 } // namespace
 
 template <int dim>
+Tensor<1, dim> Side<dim>::normal(const unsigned int piece, const Point<dim> &x) const
+{
+  if (is_flat())
+    return outward;
+  if constexpr (dim == 2)
+    return normal(piece, path_of(*this, piece).nearest(x));
+  else if (const CurvedFace own = curve(piece))
+    return own.normal(own.nearest(x));
+  else
+    return normal_of(pieces[piece]);
+}
+
+template <int dim>
 double Side<dim>::distance(const unsigned int piece, const Point<dim> &x) const
 {
-  return point(piece, nearest_on(*this, piece, x)).distance(x);
+  if constexpr (dim == 2)
+    return point(piece, path_of(*this, piece).nearest(x)).distance(x);
+  else if (const CurvedFace own = curve(piece))
+    return own.distance(x);
+  else
+    return hpvi::distance(pieces[piece], x);
+}
+
+template <int dim>
+BoundingBox<dim> Side<dim>::box(const unsigned int piece) const
+{
+  if constexpr (dim == 2)
+    return box_around(path_of(*this, piece));
+  else if (const CurvedFace own = curve(piece))
+    return own.box();
+  else
+  {
+    BoundingBox<3> result(std::vector<Point<3>>(pieces[piece].begin(), pieces[piece].end()));
+    result.extend(0.01 * pieces[piece][0].distance(pieces[piece][3]));
+    return result;
+  }
 }
 
 template <int dim>
@@ -108,22 +141,18 @@ Tensor<1, dim> Side<dim>::normal(const Point<dim> &x) const
 {
   if (is_flat())
     return outward;
-  if constexpr (dim == 3)
-    return normal_of(*std::min_element(pieces.begin(), pieces.end(),
-                                       [&](const Piece &one, const Piece &other) {
-                                         return hpvi::distance(one, x) < hpvi::distance(other, x);
-                                       }));
   unsigned int nearest = 0;
   double least = std::numeric_limits<double>::max();
   for (unsigned int k = 0; k < pieces.size(); ++k)
-    if (centre_of<dim>(pieces[k]).distance(x) - pieces[k][0].distance(pieces[k][1]) > least)
+    if (dim == 2 &&
+        centre_of<dim>(pieces[k]).distance(x) - pieces[k][0].distance(pieces[k][1]) > least)
       continue; // farther whatever its curve does, and curves take long to ask
-    else if (const double here = distance(k, x); here < (1 - 1e-9) * least)
+    else if (const double here = distance(k, x); here < (dim == 2 ? (1 - 1e-9) * least : least))
     {
       least = here;
       nearest = k;
     }
-  return normal(nearest, nearest_on(*this, nearest, x));
+  return normal(nearest, x);
 }
 
 template <int dim>
@@ -188,20 +217,43 @@ std::vector<Side<dim>> sides_of(const Geometry<dim> &geometry)
   return sides;
 }
 
+namespace
+{
+/** Of the edge of a piece in space between two of its corners. */
+std::vector<Point<3>> sample_edge(const Side<3> &side, const unsigned int piece,
+                                  const std::array<unsigned int, 2> &corners)
+{
+  std::vector<Point<3>> result =
+      sample_segment(side.pieces[piece][corners[0]], side.pieces[piece][corners[1]], 16);
+  if (const CurvedFace curve = side.curve(piece))
+    for (unsigned int i = 1; i + 1 < result.size(); ++i)
+    {
+      const std::array<Point<2>, 2> ends{
+          {Point<2>(corners[0] % 2, corners[0] / 2), Point<2>(corners[1] % 2, corners[1] / 2)}};
+      result[i] = curve.point(ends[0] + i / 16. * (ends[1] - ends[0]));
+    }
+  return result;
+}
+} // namespace
+
 template <int dim>
 std::vector<Point<dim>> common_points(const Side<dim> &one, const Side<dim> &two)
 {
   std::vector<Point<dim>> result;
-  for (const auto &a : one.pieces)
+  for (unsigned int k = 0; k < one.pieces.size(); ++k)
     for (const auto &b : two.pieces)
     {
-      std::vector<Point<dim>> corners;
-      for (const Point<dim> &corner : a)
-        if (std::find(b.begin(), b.end(), corner) != b.end())
-          corners.push_back(corner);
-      if (corners.size() == 2)
-        corners = sample_segment(corners[0], corners[1], 16);
-      result.insert(result.end(), corners.begin(), corners.end());
+      std::vector<unsigned int> corners;
+      for (unsigned int v = 0; v < one.n_corners; ++v)
+        if (std::find(b.begin(), b.end(), one.pieces[k][v]) != b.end())
+          corners.push_back(v);
+      std::vector<Point<dim>> points;
+      for (const unsigned int v : corners)
+        points.push_back(one.pieces[k][v]);
+      if constexpr (dim == 3)
+        if (corners.size() == 2)
+          points = sample_edge(one, k, {{corners[0], corners[1]}});
+      result.insert(result.end(), points.begin(), points.end());
     }
   return result;
 }

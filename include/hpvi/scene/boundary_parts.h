@@ -19,11 +19,11 @@ struct CoarseFace
 {
   typename Side<dim>::Piece corners;
   dealii::Point<dim> inside;              ///< the centre of its cell
-  CurvePiece curve = {};                  ///< in the plane, where it is curved
+  typename Side<dim>::Curve curve = {};   ///< where it is curved
   unsigned int cell = CoarseMesh::inside; ///< of a mesh, its cell
 };
 
-/** Its middle in the plane, along its curve; in space the mean of its corners. */
+/** Its middle, along its curve; in space that of a plane one is the mean of its corners. */
 template <int dim>
 dealii::Point<dim> middle_of(const CoarseFace<dim> &face);
 

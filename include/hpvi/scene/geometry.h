@@ -8,10 +8,12 @@
 #include <deal.II/lac/vector.h>
 
 #include <hpvi/scene/coarse_mesh.h>
+#include <hpvi/scene/curved_face.h>
 
 #include <array>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace hpvi
@@ -113,8 +115,10 @@ struct Side
 
   /** Of what it consists: one, unless boundaries are parts of sides; none where they take it all; of a mesh its edges. */
   std::vector<Piece> pieces;
-  /** What pieces follow between their ends, piece by piece; empty: all are straight. */
-  std::vector<CurvePiece> curves;
+  using Curve = std::conditional_t<dim == 2, CurvePiece, CurvedFace>;
+
+  /** What pieces follow between their corners, piece by piece; empty: all are straight or plane. */
+  std::vector<Curve> curves;
   unsigned int axis =
       0; ///< of a grid: direction of Geometry::subdivisions in which no cells stand along it
 
@@ -132,7 +136,15 @@ struct Side
   /** The outer unit normal of a piece in the plane at s in [0,1]. */
   dealii::Tensor<1, dim> normal(unsigned int piece, double s) const;
 
+  /** That of a piece where it is nearest to @p x. */
+  dealii::Tensor<1, dim> normal(unsigned int piece, const dealii::Point<dim> &x) const;
+
   double distance(unsigned int piece, const dealii::Point<dim> &x) const;
+
+  /** Holds a piece, with some room. */
+  dealii::BoundingBox<dim> box(unsigned int piece) const;
+
+  Curve curve(unsigned int piece) const; ///< none: straight or plane
 
   bool is_flat() const; ///< has it one normal?
 

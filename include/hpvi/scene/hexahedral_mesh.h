@@ -2,7 +2,6 @@
 #ifndef hpvi_hexahedral_mesh_h
 #define hpvi_hexahedral_mesh_h
 
-#include <hpvi/scene/box_tree.h>
 #include <hpvi/scene/geometry.h>
 
 #include <map>
@@ -50,6 +49,7 @@ struct HexahedralMesh : CoarseMesh
 
   Corners<3> corners_of(unsigned int cell) const;
   Side<3>::Piece corners_of(const Face &face) const;
+  CurvedFace curve_of(const Face &face) const; ///< of a cell that is bent
 };
 
 /** That of a body in space; null: it is a box. */
@@ -71,9 +71,6 @@ double volume_of(const Corners<3> &cell);
 
 double volume_of(const HexahedralMesh &mesh, unsigned int cell);
 
-/** Has it one normal, to 1e-8? */
-bool is_plane(const HexahedralMesh &mesh, const HexahedralMesh::Face &face);
-
 /** By boundary, face by face. */
 std::vector<Side<3>> sides_of_mesh(const HexahedralMesh &mesh);
 
@@ -85,20 +82,6 @@ bool contains(const HexahedronNodes &cell, const dealii::Point<3> &x, double hai
 
 /** Likewise in one of the cells. */
 bool contains(const HexahedralMesh &mesh, const dealii::Point<3> &x, double hair);
-
-/** Outer unit normals of one boundary of a mesh that has curved faces, at points on it. */
-class CurvedNormals
-{
-public:
-  CurvedNormals(const HexahedralMesh &mesh, unsigned int boundary);
-
-  /** That of the face nearest to @p x where it is nearest. */
-  dealii::Tensor<1, 3> operator()(const dealii::Point<3> &x) const;
-
-private:
-  std::vector<std::array<dealii::Point<3>, 9>> faces; ///< nodes, lexicographic
-  BoxTree<3> tree;
-};
 
 /** Points all over the cells, some hundred in all; of thousands of cells every so many. */
 std::vector<dealii::Point<3>> sample(const HexahedralMesh &mesh);

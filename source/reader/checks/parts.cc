@@ -43,15 +43,17 @@ std::vector<Point<dim>> points_between(const std::array<Point<dim>, 1u << n> &co
 template <int dim>
 std::vector<Point<dim>> points_on(const CoarseFace<dim> &face)
 {
+  if (!face.curve)
+    return points_between<dim - 1, dim>(face.corners);
+  std::vector<Point<dim>> result;
   if constexpr (dim == 2)
-    if (face.curve)
-    {
-      std::vector<Point<dim>> result;
-      for (const Point<1> &s : points_between<1, 1>({{Point<1>(0.), Point<1>(1.)}}))
-        result.push_back(face.curve.point(s[0]));
-      return result;
-    }
-  return points_between<dim - 1, dim>(face.corners);
+    for (const Point<1> &s : points_between<1, 1>({{Point<1>(0.), Point<1>(1.)}}))
+      result.push_back(face.curve.point(s[0]));
+  else
+    for (const Point<2> &xi :
+         points_between<2, 2>({{Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, 1)}}))
+      result.push_back(face.curve.point(xi));
+  return result;
 }
 
 /** Between @p one and @p other, of which one alone is inside, where that changes. */

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <optional>
 
 namespace hpvi
@@ -170,7 +169,7 @@ void check_curved_faces(const Scene<3> &scene)
         continue;
       const std::string at = to_string(mesh.corners[face.vertices[0]]);
       if (boundary.holds_normal() &&
-          (!is_plane(mesh, face) || (!boundary.symmetry && boundary.friction)))
+          (!mesh.curve_of(face).is_plane() || (!boundary.symmetry && boundary.friction)))
         reject(scene, section_of(boundary), boundary.symmetry ? "Symmetry" : "Contact",
                "holds u_n = 0 on the face at " + at +
                    " of a curved cell, and space offers that where it is plane, without friction; "
@@ -203,45 +202,6 @@ void check_held_faces(const Scene<3> &scene, const std::vector<Side<3>> &sides)
                "bilateral");
 }
 
-namespace
-{
-/** Normals of a boundary at points of its edges; of a mesh with curved faces at nodes alone, between which chords leave them. */
-template <int dim>
-class NormalsOnEdges
-{
-public:
-  NormalsOnEdges(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
-                 const Side<dim> &side)
-      : side(side)
-  {
-    if constexpr (dim == 3)
-      if (const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
-          mesh && !mesh->bent.empty())
-        curved = std::make_shared<const CurvedNormals>(*mesh, boundary.side);
-  }
-
-  std::vector<Tensor<1, dim>> operator()(const Point<dim> &x) const
-  {
-    if constexpr (dim == 3)
-      if (curved)
-        return is_node(x) ? std::vector<Tensor<1, dim>>{(*curved)(x)}
-                          : std::vector<Tensor<1, dim>>();
-    return normals_at(side, x);
-  }
-
-private:
-  bool is_node(const Point<dim> &x) const
-  {
-    return std::any_of(side.pieces.begin(), side.pieces.end(),
-                       [&](const auto &piece)
-                       { return std::find(piece.begin(), piece.end(), x) != piece.end(); });
-  }
-
-  const Side<dim> &side;
-  std::shared_ptr<const CurvedNormals> curved;
-};
-} // namespace
-
 template <int dim>
 void check_supports(const Scene<dim> &scene)
 {
@@ -260,8 +220,6 @@ void check_supports(const Scene<dim> &scene)
           !asks_for_displacements(scene.boundaries[a]) ||
           !asks_for_displacements(scene.boundaries[b]))
         continue;
-      const std::array<NormalsOnEdges<dim>, 2> normals{
-          {{scene, scene.boundaries[a], sides[a]}, {scene, scene.boundaries[b], sides[b]}}};
       for (const Point<dim> &point : common_points(sides[a], sides[b]))
       {
         std::vector<PointCondition<dim>> conditions, limits;
@@ -270,7 +228,7 @@ void check_supports(const Scene<dim> &scene)
           const BoundaryCondition<dim> &boundary = scene.boundaries[f];
           if (boundary.pair)
             continue; // what is opposite may move
-          for (const Tensor<1, dim> &normal : normals[f == a ? 0 : 1](point))
+          for (const Tensor<1, dim> &normal : normals_at(sides[f], point))
           {
             for (const PointCondition<dim> &condition :
                  conditions_at(boundary, normal,
