@@ -24,10 +24,10 @@ def call(program, scene, output, *options):
 
 
 def solve(program, scene, output):
-    """The picture first: a run lets it stay. Bodies in space have none."""
+    """The picture first: a run lets it stay."""
     for options in (["--picture"], []):
         done = call(program, scene, output / scene.stem, *options)
-        if done.returncode != 0 and not (options and "Dimension = 3" in done.stderr):
+        if done.returncode != 0:
             sys.exit(f"{scene}: {done.stderr.strip()}")
 
 
@@ -50,8 +50,7 @@ def draw(scene, run, output, plot, contacts):
         picture.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(picture, dpi=130, bbox_inches="tight", metadata={"Software": None})
         pyplot.close(figure)
-    if (run.directory / "scene.svg").exists():
-        shutil.copyfile(run.directory / "scene.svg", folder(scene, output) / f"{scene.stem}-scene.svg")
+    shutil.copyfile(run.directory / "scene.svg", folder(scene, output) / f"{scene.stem}-scene.svg")
     print(f"  {picture}", flush=True)
 
 

@@ -154,8 +154,8 @@ def page(pictures, anchor=""):
     for scene in all_scenes:
         mark = f" {{#scene_{scene.name.replace('-', '_')}}}" if anchor else ""
         what = "; ".join(f"{group.lower()}: {', '.join(scene.shows[group])}" for group in GROUPS if scene.shows[group])
-        images = [f'<img src="{pictures}{scene.name}-scene.svg" width="400" alt="what {scene.name} says">'] * (not scene.in_space) \
-            + [f'<img src="{pictures}{scene.name}.png" width="330" alt="{scene.name}">']
+        images = [f'<img src="{pictures}{scene.name}-scene.svg" width="400" alt="what {scene.name} says">',
+                  f'<img src="{pictures}{scene.name}.png" width="330" alt="{scene.name}">']
         lines += [f"## {scene.name}{mark}", "", textwrap.fill(scene.words[0].upper() + scene.words[1:] + ".", 118, break_on_hyphens=False), "", " ".join(images), "", textwrap.fill(what + ".", 118, break_on_hyphens=False), "",
                   f"    ./run prm/{scene.name}.prm", ""]
     return "\n".join(lines)
@@ -188,7 +188,7 @@ def pages():
 
 def complaints():
     found = [f"doc/gallery/{name} is missing; run ./run gallery" for scene in scenes()
-             for name in [f"{scene.name}.png"] + [f"{scene.name}-scene.svg"] * (not scene.in_space)
+             for name in (f"{scene.name}.png", f"{scene.name}-scene.svg")
              if not (ROOT / "doc/gallery" / name).exists()]
     found += [f"doc/manual/gallery.md has a row for {name}.prm, which is not in prm/" for name, _, _ in ROW.findall(GALLERY.read_text())
               if not (ROOT / f"prm/{name}.prm").exists()]

@@ -38,15 +38,20 @@ std::string number_text(const double value)
   return json_value(Value(rounded(value + 0., 13)));
 }
 
-std::string vector(const Tensor<1, 2> &value)
+template <int dim>
+std::string vector(const Tensor<1, dim> &value)
 {
-  return "[" + number_text(value[0]) + ", " + number_text(value[1]) + "]";
+  std::string numbers;
+  for (unsigned int c = 0; c < dim; ++c)
+    numbers += (c > 0 ? ", " : "") + number_text(value[c]);
+  return "[" + numbers + "]";
 }
 
-std::string points(const std::vector<Point<2>> &some)
+template <int dim>
+std::string points(const std::vector<Point<dim>> &some)
 {
   std::vector<std::string> items;
-  for (const Point<2> &x : some)
+  for (const Point<dim> &x : some)
     items.push_back(vector(x));
   return json_list(items);
 }
@@ -157,7 +162,8 @@ std::string cells_json(const Scene<2> &scene, const Triangulation<2> &mesh)
   return json_list(cells, 4);
 }
 
-std::string materials_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+template <int dim>
+std::string materials_json(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::vector<std::string> materials;
   for (const std::size_t k : materials_of(scene, mesh))
@@ -223,7 +229,8 @@ std::string edges_json(const BoundaryCondition<2> &condition, const Triangulatio
   return json_list(edges, 6);
 }
 
-std::string contact_name(const BoundaryCondition<2> &condition)
+template <int dim>
+std::string contact_name(const BoundaryCondition<dim> &condition)
 {
   if (!condition.has_contact())
     return "null";
@@ -241,7 +248,8 @@ std::string plate_json(const std::optional<RigidPlate<2>> &plate)
 }
 
 /** Curves of a drawing that make it, as its entry has them; else its own name may be a number. */
-std::string curves_of(const Scene<2> &scene, const std::string &name)
+template <int dim>
+std::string curves_of(const Scene<dim> &scene, const std::string &name)
 {
   const std::string section = "Boundary " + name;
   return scene.parameters && scene.parameters->has(section, "Curves")
@@ -249,33 +257,109 @@ std::string curves_of(const Scene<2> &scene, const std::string &name)
              : "";
 }
 
-std::string boundary_json(const Scene<2> &scene, const Triangulation<2> &mesh,
-                          const BoundaryCondition<2> &condition)
+/** Points along a face, (n + 1)^2, in such an order that their coordinates turn about the outer normal; n = 1, or 4 of a curved cell. */
+std::vector<Point<3>> face_grid(const CellMap<3> &map, const unsigned int face,
+                                const Point<3> &inside)
+{
+  const unsigned int n = map.is_curved() ? 4 : 1;
+  const auto grid = [&](const bool is_turned)
+  {
+    std::vector<Point<3>> result;
+    for (unsigned int k = 0; k < (n + 1) * (n + 1); ++k)
+    {
+      const double s = double(k % (n + 1)) / n, t = double(k / (n + 1)) / n;
+      result.push_back(
+          map.point(point_on_face<3>(face, is_turned ? Point<2>(t, s) : Point<2>(s, t))));
+    }
+    return result;
+  };
+  const std::vector<Point<3>> one = grid(false);
+  const bool is_outward =
+      cross_product_3d(one[1] - one[0], one[n + 1] - one[0]) * (one[0] - inside) > 0;
+  return is_outward ? one : grid(true);
+}
+
+/** Its vector in the middle; null where it has none. */
+template <class Components>
+std::string vector_at(const Components &components, const Point<3> &x)
+{
+  Tensor<1, 3> value;
+  bool is_given = false;
+  for (unsigned int c = 0; c < 3; ++c)
+    if (components[c])
+    {
+      value[c] = components[c]->value(x);
+      is_given = true;
+    }
+  return is_given ? vector(value) : "null";
+}
+
+std::string faces_json(const Scene<3> &scene, const BoundaryCondition<3> &condition,
+                       const Triangulation<3> &mesh)
+{
+  std::vector<std::string> faces;
+  for (const auto &cell : mesh.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face) && cell->face(face)->boundary_id() == condition.id)
+      {
+        const CellMap<3> map = map_of<3>(cell);
+        const Point<3> middle = map.point(point_on_face<3>(face, Point<2>(0.5, 0.5)));
+        faces.push_back(
+            json_members({{"x", points(face_grid(map, face, cell->center()))},
+                          {"material", std::to_string(material_beside(scene, cell->material_id()))},
+                          {"traction", vector_at(condition.traction, middle)},
+                          {"displacement", vector_at(condition.displacement, middle)}}));
+      }
+  return json_list(faces, 6);
+}
+
+/** Places along it with their data: edges in the plane, in space faces. */
+std::pair<std::string, std::string>
+places_json(const Scene<2> &, const BoundaryCondition<2> &condition, const Triangulation<2> &mesh)
+{
+  return {"edges", edges_json(condition, mesh)};
+}
+
+std::pair<std::string, std::string> places_json(const Scene<3> &scene,
+                                                const BoundaryCondition<3> &condition,
+                                                const Triangulation<3> &mesh)
+{
+  return {"faces", faces_json(scene, condition, mesh)};
+}
+
+template <int dim>
+std::string boundary_json(const Scene<dim> &scene, const Triangulation<dim> &mesh,
+                          const BoundaryCondition<dim> &condition)
 {
   const BoundaryPhrases phrases = phrases_of(scene, condition, mesh).value_or(BoundaryPhrases());
   const auto &d = condition.contact_direction;
   const bool speaks = !condition.pair || scene.pairs[*condition.pair].parts[0] == condition.id;
-  return json_members({{"name", json_string(condition.name)},
-                       {"curves", json_string(curves_of(scene, condition.name))},
-                       {"supports", json_strings(phrases.supports)},
-                       {"contacts", speaks ? json_strings(phrases.contacts) : "[]"},
-                       {"loads", json_strings(phrases.loads)},
-                       {"held", json_list({boolean(bool(condition.displacement[0])),
-                                           boolean(bool(condition.displacement[1]))})},
-                       {"symmetry", boolean(condition.symmetry)},
-                       {"spring", boolean(bool(condition.spring))},
-                       {"plate", plate_json(condition.plate)},
-                       {"contact", contact_name(condition)},
-                       {"pair", condition.pair ? json_string(condition.pair_name) : "null"},
-                       {"direction", d ? vector(*d) : "null"},
-                       {"edges", edges_json(condition, mesh)}});
+  std::vector<std::string> held;
+  for (const Expression<dim> &component : condition.displacement)
+    held.push_back(boolean(bool(component)));
+  JsonMembers members = {{"name", json_string(condition.name)},
+                         {"curves", json_string(curves_of(scene, condition.name))},
+                         {"supports", json_strings(phrases.supports)},
+                         {"contacts", speaks ? json_strings(phrases.contacts) : "[]"},
+                         {"loads", json_strings(phrases.loads)},
+                         {"held", json_list(held)},
+                         {"symmetry", boolean(condition.symmetry)},
+                         {"spring", boolean(bool(condition.spring))}};
+  if constexpr (dim == 2)
+    members.emplace_back("plate", plate_json(condition.plate));
+  members.emplace_back("contact", contact_name(condition));
+  members.emplace_back("pair", condition.pair ? json_string(condition.pair_name) : "null");
+  members.emplace_back("direction", d ? vector(*d) : "null");
+  members.push_back(places_json(scene, condition, mesh));
+  return json_members(members);
 }
 
-std::string boundaries_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+template <int dim>
+std::string boundaries_json(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   const std::vector<types::boundary_id> present = mesh.get_boundary_ids();
   std::vector<std::string> boundaries;
-  for (const BoundaryCondition<2> &condition : scene.boundaries)
+  for (const BoundaryCondition<dim> &condition : scene.boundaries)
     if (std::count(present.begin(), present.end(), condition.id) > 0)
       boundaries.push_back(boundary_json(scene, mesh, condition));
   return json_list(boundaries, 4);
@@ -284,19 +368,20 @@ std::string boundaries_json(const Scene<2> &scene, const Triangulation<2> &mesh)
 // ---------------------------------------------------------------- the rest
 
 /** Its mean and the centre of the body; null where there is none. */
-std::string body_force_json(const Scene<2> &scene, const Triangulation<2> &mesh)
+template <int dim>
+std::string body_force_json(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   if (!scene.has_body_force())
     return "null";
-  Tensor<1, 2> mean;
-  Point<2> centre;
+  Tensor<1, dim> mean;
+  Point<dim> centre;
   std::vector<double> sizes;
   double area = 0;
   for (const auto &cell : mesh.active_cell_iterators())
   {
     const auto &components = scene.body_force_in(cell);
-    Tensor<1, 2> force;
-    for (unsigned int c = 0; c < 2; ++c)
+    Tensor<1, dim> force;
+    for (unsigned int c = 0; c < dim; ++c)
       force[c] = components[c] ? components[c]->value(cell->center()) : 0.;
     mean += cell->measure() * force;
     centre += cell->measure() * cell->center();
@@ -322,11 +407,12 @@ std::string pretensions_json(const Scene<2> &scene)
   return json_list(cuts);
 }
 
-std::string probes_json(const Scene<2> &scene)
+template <int dim>
+std::string probes_json(const Scene<dim> &scene)
 {
   static const char *const kinds[] = {"point", "disc", "boundary", "line"};
   std::vector<std::string> probes;
-  for (const Probe<2> &probe : scene.probes)
+  for (const Probe<dim> &probe : scene.probes)
   {
     std::vector<std::string> on;
     for (const types::boundary_id id : probe.on)
@@ -343,19 +429,21 @@ std::string probes_json(const Scene<2> &scene)
   return json_list(probes);
 }
 
-JsonMembers drawn_members(const Scene<2> &scene)
+template <int dim>
+JsonMembers drawn_members(const Scene<dim> &scene)
 {
-  Triangulation<2> mesh;
+  Triangulation<dim> mesh;
   make_mesh(scene, mesh);
-  return {
-      {"cells", cells_json(scene, mesh)},           {"materials", materials_json(scene, mesh)},
-      {"boundaries", boundaries_json(scene, mesh)}, {"body_force", body_force_json(scene, mesh)},
-      {"pretensions", pretensions_json(scene)},     {"probes", probes_json(scene)}};
-}
-
-JsonMembers drawn_members(const Scene<3> &) // which ParaView shows
-{
-  return {};
+  JsonMembers members;
+  if constexpr (dim == 2)
+    members.emplace_back("cells", cells_json(scene, mesh));
+  members.emplace_back("materials", materials_json(scene, mesh));
+  members.emplace_back("boundaries", boundaries_json(scene, mesh));
+  members.emplace_back("body_force", body_force_json(scene, mesh));
+  if constexpr (dim == 2)
+    members.emplace_back("pretensions", pretensions_json(scene));
+  members.emplace_back("probes", probes_json(scene));
+  return members;
 }
 } // namespace
 

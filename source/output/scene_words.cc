@@ -348,11 +348,15 @@ std::string scene_in_words(const Scene<dim> &scene)
 }
 
 template std::string body_force_unit(const Scene<2> &);
+template std::string body_force_unit(const Scene<3> &);
 template std::set<std::size_t> materials_of(const Scene<2> &, const Triangulation<2> &);
+template std::set<std::size_t> materials_of(const Scene<3> &, const Triangulation<3> &);
 template Scene<2> at_the_end(const Scene<2> &);
 template Scene<3> at_the_end(const Scene<3> &);
 template std::string name_in_words(const Scene<2> &, std::size_t);
+template std::string name_in_words(const Scene<3> &, std::size_t);
 template std::string material_in_words(const Scene<2> &, const Material &);
+template std::string material_in_words(const Scene<3> &, const Material &);
 template std::string scene_in_words(const Scene<2> &);
 template std::string scene_in_words(const Scene<3> &);
 template std::string resultant_in_words(const Scene<2> &, bool);

@@ -86,7 +86,8 @@ void write_scene(const ResultDirectory &results, const std::string &json)
 }
 
 /** `hpvi --picture`: scene.json and scene.svg into @p directory. Throws InputError or OutputFailure. */
-void draw(const Scene<2> &scene, const std::string &directory)
+template <int dim>
+void draw(const Scene<dim> &scene, const std::string &directory)
 {
   in_all_processes(
       [&]()
@@ -98,13 +99,6 @@ void draw(const Scene<2> &scene, const std::string &directory)
         call_python("picture", {"picture", directory + "/scene.json", directory + "/scene.svg"});
         std::cout << "picture in " << printable(directory, 400) << "/scene.svg" << std::endl;
       });
-}
-
-void draw(const Scene<3> &scene, const std::string &)
-{
-  throw InputError(scene.origin() +
-                   ": Dimension = 3: --picture draws bodies in the plane alone; --validate says "
-                   "what the scene says, and ParaView shows solution-NN.vtu of a run");
 }
 
 /** `hpvi --report`: scene.json and report.html into @p directory. Throws InputError or OutputFailure. */

@@ -33,17 +33,6 @@ auto ask_scene(const SceneText &text, const Ask &ask)
   return ask(read_scene<2>(file));
 }
 
-std::string json_of(const Scene<2> &scene)
-{
-  return scene_json(scene);
-}
-
-std::string json_of(const Scene<3> &scene)
-{
-  throw InputError(scene.origin() + ": Dimension = 3: pictures show bodies in the plane alone; "
-                                    "describe() says what the scene says");
-}
-
 /** "Boundary" of "Boundary left/Traction". */
 std::string kind_of(const std::string &path)
 {
@@ -130,7 +119,7 @@ std::string SceneText::words() const
 
 std::string SceneText::json() const
 {
-  return ask_scene(*this, [](const auto &scene) { return json_of(scene); });
+  return ask_scene(*this, [](const auto &scene) { return scene_json(scene); });
 }
 
 std::string SceneText::print() const

@@ -200,9 +200,6 @@ invalid "Boundary bottom/Friction bound" "must be a positive constant" -- "Exact
 invalid "Boundary left/Traction" "contradicts Exact solution/Solution" "write exact" -- "Exact solution/Solution=smooth"
 invalid "with t = 1 is not finite" "Displacement" -- "Loading/Steps=2" "Boundary right/Displacement=1/(t - 1); 0; 0"
 check 1 "inf-sup" "the plane alone" -- "$hpvi" --inf-sup prm/slab.prm
-check 1 "prm/slab.prm: Dimension = 3" "--picture draws bodies in the plane alone" "--validate" -- \
-  "$hpvi" --picture --output "$scratch/picture" prm/slab.prm
-[ ! -e "$scratch/picture" ] || { echo "a refused picture leaves a directory"; failures=1; }
 
 # --- boundaries
 invalid "rigid-body motion free, translation in x" "no friction resists" -- "Boundary right/Displacement=" "Boundary bottom/Friction bound="

@@ -19,7 +19,7 @@ import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from crowded import crowded  # noqa: E402
-from hpvi import plot  # noqa: E402
+from hpvi import plot, space  # noqa: E402
 from hpvi.scene import parts_of  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -144,9 +144,39 @@ class Scenes(unittest.TestCase):
             self.assertTrue(drawn.arrows("traction right"))
         self.assertIn("<svg", hpvi.Scene({**BAR, "Title": "<a> & $b$"}).picture())
 
-    def test_in_space_there_is_none(self):
-        with self.assertRaisesRegex(ValueError, "in the plane alone"):
-            hpvi.Scene(ROOT / "prm/slab.prm").picture()
+    def outlines(self, drawn):
+        """Of the faces in space that are drawn: their colour is that of the small faces of which they consist."""
+        return [collection for collection in drawn.axes.collections if collection.get_gid() == "faces"]
+
+    def test_in_space_each_face_of_a_box_is_seen_once(self):
+        drawn = self.draw("slab")
+        below, above = self.outlines(drawn)
+        n_faces = [sum(colour[3] == 0 for colour in one.get_facecolors()) for one in (below, above)]
+        self.assertEqual(n_faces, [16 + 8 + 8] * 2)  # bottom, left and back of 4 x 4 x 2 cells; top, right and front
+        contact = matplotlib.colors.to_rgba(space.TINTS["contact"][0])
+        self.assertEqual([sum(tuple(colour) == contact for colour in one.get_facecolors()) for one in (below, above)], [8, 0])
+        self.assertEqual(drawn.words("boundary bottom")[0], "bottom")
+        self.assertIn("clamped", drawn.words("boundary right"))
+        self.assertEqual(drawn.words("boundary top"), [])
+        self.assertEqual(drawn.axes.get_xlabel(), "x: 0 to 4, y: 0 to 4, z: 0 to 2\nfree: top, front, back")
+
+    def test_in_space_arrows_are_the_load_to_scale(self):
+        drawn = self.draw(**{"Dimension": 3, "Geometry/Upper corner": (2, 1, 1), "Boundary left/Displacement": "0; free; free", "Boundary bottom/Displacement": "free; 0; free",
+                             "Boundary top/Traction": (0, -2, 0), "Boundary right/Traction": (1, 0, 0), "Boundary front/Symmetry": "true", "Geometry/Subdivisions": (1, 1, 1)})
+        (tail, down), = drawn.arrows("traction top")
+        (_, out), = drawn.arrows("traction right")
+        np.testing.assert_allclose(np.array((down, out)).T, space.ABOVE @ np.array(((0, -2, 0), (1, 0, 0))).T * (np.hypot(*down) / np.hypot(*(2 * space.ABOVE[:, 1]))), atol=1e-12)
+        view = space.views(drawn.data)[1]
+        np.testing.assert_allclose(tail + down, view((1, 1, 0.5)))  # it presses in the middle
+        for name, words in (("left", "ux = 0"), ("bottom", "uy = 0"), ("front", "symmetry")):
+            self.assertIn(words, " ".join(drawn.words(f"boundary {name}")))
+
+    def test_in_space_words_of_all_boundaries_find_room(self):
+        for name in ("ball", "spheres", "fretting-pad-space", "floor-slab", "growth-rings", "foot", "clamped-plates"):
+            with self.subTest(name):
+                drawn = self.draw(name)
+                told = [boundary["name"] for boundary in drawn.data["boundaries"] if boundary["name"] and not space.is_free(boundary)]
+                self.assertEqual([one for one in told if one not in drawn.words(f"boundary {one}")], [])
 
 
 if __name__ == "__main__":

@@ -158,8 +158,7 @@ class Charts(unittest.TestCase):
         axes, _ = drawn(plot.surface, run, name="bottom", what="pressure")
         np.testing.assert_array_equal(axes.collections[0].get_array(), -run.contact["normal_traction"])
         text, n_pictures = page_of(run)
-        self.assertIn("Of scenes in space there is no picture", text)
-        self.assertGreaterEqual(n_pictures, 4)
+        self.assertGreaterEqual(n_pictures, 5)
 
     def test_colours_are_told_apart_without_red_or_green(self):
         def seen(colour, blindness):

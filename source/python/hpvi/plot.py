@@ -25,6 +25,7 @@ except ImportError:
 from . import results
 from .results import label, usual, von_mises
 from .scene import scene
+from .space import BELOW as PAPER, corners
 from .words import digits, one_digit
 
 STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
@@ -37,8 +38,6 @@ STYLE = {"font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "xtick.label
          "axes.formatter.useoffset": False}
 BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 3.9}  # a legend
 PER_CELL = 5  # points a direction and cell; quarters of edges tell which cells are neighbours
-# Bodies in space are seen from below, for there the contact is: where x, y and z lie on the paper.
-PAPER = np.array(((0.85, 0., 0.53), (-0.21, 0.92, 0.33)))
 
 
 def figure(width=4.6, height=3.2):
@@ -63,8 +62,9 @@ def svg(function, *arguments, size=(4.6, 3.3), **options):
 
 def scene_svg(data):
     """A picture of its own as SVG, with its title: what `hpvi --picture` writes."""
-    size = np.ptp(np.concatenate([cell["outline"] for cell in data.get("cells") or [{"outline": [[0, 0], [1, 1]]}]]), axis=0)
-    text, _ = svg(scene, data, size=(7.2, float(np.clip(2.8 + 4.6 * size[1] / size[0], 3.2, 8))))
+    in_space = data["dimension"] == 3  # where the key has some lines more
+    size = np.ptp(corners(data) if in_space else np.concatenate([cell["outline"] for cell in data["cells"]]), axis=0)
+    text, _ = svg(scene, data, size=(7.2, float(np.clip(2.8 + in_space + 4.6 * size[1] / size[0], 3.2 + in_space, 8))))
     return "<!-- the scene, drawn by hpvi -->\n" + text[text.index("<svg"):]
 
 

@@ -269,8 +269,6 @@ class Teller:
         return float(min(4.8, 1.6 + 4 * self.extent[1] / self.extent[0]))
 
     def scene(self):
-        if self.run.dimension == 3:
-            return "Of scenes in space there is no picture."
         if not self.run.scene:
             return "No picture of the scene: there is no scene.json; hpvi --report writes it."
         return picture(plot.scene, self.run.scene, is_brief=True, size=(4.6, min(5., 1.4 + self.height())))
