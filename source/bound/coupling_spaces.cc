@@ -127,7 +127,8 @@ FullMatrix<double> part(const FullMatrix<double> &A, const std::vector<unsigned 
   return result;
 }
 
-/** The largest eigenvalue of a symmetric tridiagonal matrix, by bisection of Sturm's sequence. */
+} // namespace
+
 double largest_of_tridiagonal(const std::vector<double> &diagonal,
                               const std::vector<double> &beside)
 {
@@ -156,7 +157,6 @@ double largest_of_tridiagonal(const std::vector<double> &diagonal,
   }
   return high;
 }
-} // namespace
 
 ContactCompliance::ContactCompliance(const Scene<2> &scene,
                                      std::shared_ptr<const Spaces<2>> all_spaces,

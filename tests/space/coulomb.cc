@@ -3,8 +3,20 @@
 #include "reduced_path.h"
 
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/bound/coulomb_bound.h>
+#include <hpvi/driver/load_history.h>
+#include <hpvi/results/stored_solution.h>
+#include <hpvi/space/box_bound_stages.h>
+#include <hpvi/space/friction_coupling.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <random>
 
 namespace
 {
@@ -204,5 +216,272 @@ TEST(Coulomb, StopsWhereTheEstimatedErrorSaysSo)
                 EXPECT_NEAR(step.energies.norm, exact[k].norm, step.primal->newton.error + 1e-8);
                 ++k;
               });
+}
+
+/** A block that is pressed down, and moved by a part of what makes all of it slip; a part of its foundation lies deeper. */
+Scene<3> moved_block(const Overrides &entries)
+{
+  return slab({{"Geometry/Upper corner", "2, 1, 1"},
+               {"Geometry/Subdivisions", "2, 1, 1"},
+               {"Material/Young's modulus", "100"},
+               {"Boundary left/Traction", ""},
+               {"Boundary right/Displacement", ""},
+               {"Boundary top/Displacement", "0.01; -0.03; 0.004*x"},
+               given::coulomb("0.3 + 0.1*x"),
+               {"Boundary bottom/Contact", "unilateral"},
+               {"Boundary bottom/Gap", "0.002 + 0.03*(x - 0.8)^2"},
+               {"Error/Bound", "true"},
+               entries});
+}
+
+/** The bound of each step is above the error, by a solution that is far finer, and not much. */
+TEST(CoulombBound, HoldsOfFinerMeshes)
+{
+  const std::string file =
+      (std::filesystem::temp_directory_path() / "hpvi-coulomb-reference").string();
+  struct Row
+  {
+    const char *name;
+    Overrides entries;
+    double most; ///< bound over error
+  };
+  for (const Row &row : {Row{"slides in part", {}, 3},
+                         Row{"slides all over",
+                             {{"Boundary top/Displacement", "0.05; -0.03; 0.01"},
+                              {"Boundary bottom/Friction coefficient", "0.2"}},
+                             3},
+                         Row{"pressed into a flat floor",
+                             {{"Boundary bottom/Gap", ""},
+                              {"Boundary top/Displacement", "0; -0.02; 0"},
+                              {"Boundary bottom/Friction coefficient", "0.5"}},
+                             3},
+                         Row{"friction with cohesion",
+                             {{"Boundary bottom/Friction bound", "0.2"},
+                              {"Boundary bottom/Friction law", "cohesive"}},
+                             3.5},
+                         Row{"hanging nodes", {given::steps("hap2", "3")}, 3}})
+  {
+    const Overrides coarse = with({given::steps("hup2", "2")}, row.entries);
+    LoadHistory<3>(moved_block(with(row.entries, {given::steps("hup3", "3")})))
+        .run(
+            [&](const StepReport<3> &step)
+            {
+              std::ofstream out(file, std::ios::binary);
+              write_solution(out, step.field, step.energies.energy);
+            });
+    Scene<3> scene = moved_block(coarse);
+    scene.reference_solution = file;
+    steps_of<3>(scene,
+                [&](const StepReport<3> &step)
+                {
+                  ASSERT_TRUE(step.bound) << row.name << ": " << step.no_bound;
+                  EXPECT_EQ(step.bound->kind, BoundKind::coupling) << step.bound->why;
+                  EXPECT_GT(step.bound->total, step.errors.energy) << row.name;
+                  EXPECT_GT(step.bound->total, step.bound->estimate) << row.name;
+                  EXPECT_LT(step.bound->total, row.most * step.errors.energy) << row.name;
+                });
+    std::filesystem::remove(file);
+  }
+}
+
+/** On the last mesh of a run of a block that is moved. */
+void on_block(const Overrides &entries,
+              const std::function<void(const PrimalSpace<3> &, const DistributedVector &)> &look)
+{
+  steps_of<3>(moved_block(with(entries, {{"Error/Bound", "false"}})),
+              [&](const StepReport<3> &step)
+              {
+                if (!step.stopped_by.empty())
+                  look(step.primal->space, step.primal->u);
+              });
+}
+
+/** theta by Lanczos' method is that of the whole compliance, which one solution for each component of a force makes. */
+TEST(CoulombBound, HasTheCouplingOfTheWholeCompliance)
+{
+  for (const char *const linear : {"multigrid", "amg", "direct"})
+    on_block({{"Solver/Linear", linear}, given::steps("hap2", "2")},
+             [&](const PrimalSpace<3> &space, const DistributedVector &)
+             {
+               PrimalSystem<3> system(space);
+               NewtonMatrix<3> matrix(space, system);
+               matrix.linearise(std::vector<ContactDofState<3>>(space.contact.size()), true);
+               std::vector<std::pair<unsigned int, unsigned int>> forces; // contact dof, component
+               for (unsigned int k = 0; k < space.contact.size(); ++k)
+                 for (unsigned int c = 0; c < space.contact[k].n_unknowns(); ++c)
+                   forces.emplace_back(k, c);
+               const unsigned int n = forces.size();
+               LAPACKFullMatrix<double> S(n);
+               for (unsigned int j = 0; j < n; ++j)
+               {
+                 DistributedVector b = space.owned_vector(), v = b;
+                 ContactVector<3> unit;
+                 unit[forces[j].second] = 1;
+                 space.set_contact_value(b, forces[j].first, unit);
+                 matrix.solve(v, b, 1e-10);
+                 for (unsigned int i = 0; i < n; ++i)
+                   S(i, j) = space.contact_value(v, forces[i].first)[forces[i].second];
+               }
+               std::mt19937 random(3);
+               std::uniform_real_distribution<double> any(-0.5, 0.5);
+               std::vector<ContactVector<3>> mu_chi(space.contact.size());
+               std::map<std::pair<unsigned int, unsigned int>, unsigned int> places;
+               for (unsigned int i = 0; i < n; ++i)
+                 places[forces[i]] = i;
+               for (unsigned int k = 0; k < mu_chi.size(); ++k)
+                 if (space.contact[k].has_partner())
+                   mu_chi[k] = ContactVector<3>({any(random), any(random)});
+               // B = D' (S^-1)_PP D S_FF, of which the largest eigenvalue is real, by powers
+               LAPACKFullMatrix<double> inverse(S);
+               inverse.invert();
+               Vector<double> f(n);
+               for (double &value : f)
+                 value = any(random);
+               double theta = 0;
+               for (unsigned int step = 0; step < 2000; ++step)
+               {
+                 Vector<double> g(n), next(n);
+                 for (unsigned int k = 0; k < mu_chi.size(); ++k)
+                   for (unsigned int c = 0; space.contact[k].has_partner() && c < 2; ++c)
+                     for (unsigned int l = 0; l < mu_chi.size(); ++l)
+                       for (unsigned int d = 0; space.contact[l].has_partner() && d < 2; ++d)
+                         g[places[{space.contact[k].partner, 0}]] +=
+                             mu_chi[k][c] * S(places[{k, c}], places[{l, d}]) * f[places[{l, d}]];
+                 for (unsigned int k = 0; k < mu_chi.size(); ++k)
+                   for (unsigned int l = 0; space.contact[k].has_partner() && l < mu_chi.size();
+                        ++l)
+                     for (unsigned int c = 0; space.contact[l].has_partner() && c < 2; ++c)
+                       next[places[{k, c}]] += mu_chi[k][c] *
+                                               inverse(places[{space.contact[k].partner, 0}],
+                                                       places[{space.contact[l].partner, 0}]) *
+                                               g[places[{space.contact[l].partner, 0}]];
+                 theta = std::sqrt(next.l2_norm() / f.l2_norm());
+                 f = next;
+                 f /= next.l2_norm();
+               }
+               const double found = friction_coupling(space, matrix, mu_chi);
+               EXPECT_NEAR(found, theta, 2e-3 * theta) << linear;
+               EXPECT_GT(theta, 0.1);
+             });
+}
+
+/** What a bound under Coulomb's law is made of. */
+struct Stages : BoxBound
+{
+  using BoxBound::against;
+  using BoxBound::BoxBound;
+  using BoxBound::bumps;
+  using BoxBound::contact;
+  using BoxBound::coulomb_gap;
+  using BoxBound::energy_norm;
+  using BoxBound::face_dofs;
+  using BoxBound::p;
+  using BoxBound::w;
+};
+
+/** Of any displacement: chi is continuous and in the disc, M' where it has to be, and X has it as its normal trace. */
+TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
+{
+  on_block(
+      {given::steps("hap2", "2"), {"Boundary bottom/Friction coefficient", "0.9"}},
+      [&](const PrimalSpace<3> &space, const DistributedVector &solution)
+      {
+        ASSERT_TRUE(space.dof_handler.get_triangulation().has_hanging_nodes());
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> any(-1, 1);
+        DistributedVector u = solution;
+        std::vector<ContactVector<3>> lambda(space.contact.size());
+        for (const ContactDofFace<3> &face : space.faces)
+          for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+          {
+            const double angle = 3 * any(random);
+            lambda[face.friction + k] = {std::cos(angle), std::sin(angle)};
+            lambda[face.pressure + k][0] = face.cell->center()[0] > 0.5 ? 1 + any(random) : 0;
+          }
+        PrimalSystem<3> system(space);
+        NewtonMatrix<3> matrix(space, system);
+        Stages stages(space, matrix, u, lambda, 0);
+        const ErrorBound bound = stages.compute();
+        std::map<std::array<int, 2>, std::array<double, 3>> known; // chi and M' at places
+        DistributedVector X = space.ghosted_vector();
+        const std::vector<BoxModes> bumps = stages.bumps(X);
+        double largest = 0, gap = 0;
+        const QGauss<1> rule(12);
+        for (unsigned int k = 0; k < space.faces.size(); ++k)
+        {
+          const ContactDofFace<3> &face = space.faces[k];
+          const CellMap<3> map = map_of<3>(face.cell);
+          const std::vector<double> points{0, 0.25, 0.5, 0.75, 1}, odd{0.03, 0.21, 0.62, 0.97};
+          const auto values_of = [&](const std::vector<double> &where, const BoxModes &coefficients)
+          { return at(bernstein_at(where, stages.p), coefficients); };
+          const BoxModes chi_x = values_of(points, stages.contact[k].lambda[0]),
+                         chi_z = values_of(points, stages.contact[k].lambda[1]),
+                         bump = values_of(points, bumps[k]), beside = values_of(odd, bumps[k]);
+          for (unsigned int q = 0; q < 25; ++q)
+          {
+            const Point<3> x =
+                map.point(on_cell_face(face.face, {{points[q % 5], points[q / 5], 0.}}));
+            EXPECT_LE(std::hypot(chi_x[q], chi_z[q]), 1 + 1e-12);
+            const std::array<double, 3> here{{chi_x[q], chi_z[q], bump[q]}};
+            const auto [at_place, is_new] = known.emplace(
+                std::array<int, 2>{{int(std::lround(1e6 * x[0])), int(std::lround(1e6 * x[2]))}},
+                here);
+            for (unsigned int i = 0; i < 3 && !is_new; ++i)
+              EXPECT_NEAR(at_place->second[i], here[i], 1e-10) << x;
+          }
+          const std::vector<double> needed = stages.against(k, odd);
+          for (unsigned int q = 0; q < needed.size(); ++q)
+          {
+            EXPECT_GE(beside[q], needed[q]);
+            largest = std::max(largest, needed[q]);
+          }
+          // X has this normal trace, and none along the face
+          const auto dofs = stages.face_dofs(face);
+          const std::vector<Point<1>> nodes = QGaussLobatto<1>(stages.p + 1).get_points();
+          std::vector<double> of_nodes;
+          for (const Point<1> &node : nodes)
+            of_nodes.push_back(node[0]);
+          const BoxModes normal = values_of(of_nodes, bumps[k]);
+          for (unsigned int i = 0; i < normal.size(); ++i)
+          {
+            EXPECT_NEAR(-X(dofs[1][i]), normal[i], 1e-12);
+            EXPECT_EQ(X(dofs[0][i]), 0);
+            EXPECT_EQ(X(dofs[2][i]), 0);
+          }
+          std::vector<double> gauss;
+          for (const Point<1> &point : rule.get_points())
+            gauss.push_back(point[0]);
+          const BoxModes pressure = values_of(gauss, stages.contact[k].pressure),
+                         M = values_of(gauss, bumps[k]);
+          const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
+          const CellField<3> field = space.field(face.cell, u),
+                             of_w = space.field(face.cell, stages.w);
+          for (unsigned int q = 0; q < M.size(); ++q)
+          {
+            const Point<3> unit(gauss[q % 12], 0, gauss[q / 12]);
+            double U_y = 0;
+            for (unsigned int i = 0; i < field.size(); ++i)
+              U_y += space.tables.fe.shape_value(space.tables.numbers[i][1], unit) *
+                     (field[i][1] - of_w[i][1]);
+            const double u_0 = space.condition(face.cell, face.face).gap->value(map.point(unit));
+            gap += rule.weight(q % 12) * rule.weight(q / 12) * size[0] * size[2] * pressure[q] *
+                   (u_0 + U_y + M[q]);
+          }
+        }
+        EXPECT_GT(largest, 1e-3);
+        EXPECT_NEAR(stages.coulomb_gap(bumps), gap, 1e-4 * gap);
+        DistributedVector product = space.owned_vector(), of_X = space.in_contact_dofs(X);
+        matrix.multiply(product, of_X);
+        EXPECT_NEAR(stages.energy_norm(X), std::sqrt(product * of_X), 1e-9);
+        EXPECT_LE(bound.coupling, largest_coupling);
+        const auto sum = [](const std::vector<double> &all)
+        { return std::accumulate(all.begin(), all.end(), 0.); };
+        const double b = std::sqrt(sum(bound.moved)),
+                     A = std::sqrt(sum(bound.squares) - bound.slip * bound.slip);
+        EXPECT_NEAR(
+            bound.total,
+            coulomb_bound(bound.coupling, {A, stages.coulomb_gap(bumps), b, stages.energy_norm(X)}),
+            1e-9 * bound.total);
+      });
 }
 } // namespace

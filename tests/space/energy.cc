@@ -211,7 +211,16 @@ TEST(BoxBound, SaysWhyThereIsNone)
 {
   const std::vector<std::pair<Overrides, std::string>> cases{
       {{given::coulomb("0.3")}, "contact that does not open"},
-      {{given::coulomb("0.3"), {"Boundary bottom/Contact", "unilateral"}}, "coupling"},
+      {{given::coulomb("4"), {"Boundary bottom/Contact", "unilateral"}}, "too strong for a bound"},
+      {{given::coulomb("0.3"),
+        {"Boundary bottom/Contact", "unilateral"},
+        {"Boundary right/Displacement", "free; 0; 0"}},
+       "can slide but not lift"},
+      {{given::coulomb("0.3"),
+        {"Boundary bottom/Contact", "unilateral"},
+        {"Boundary bottom/Friction bound", "1"},
+        {"Boundary bottom/Friction law", "limited"}},
+       "up to a bound alone"},
       {{{"Boundary right/Displacement", "0.01*sin(y); 0; 0"}}, "no polynomials"},
       {{{"Boundary left/Spring", "10; 0"}}, "springs"},
       {{{"Material/Thermal expansion", "1e-5"}, {"Temperature/Expression", "10 + x"}},

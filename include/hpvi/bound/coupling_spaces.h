@@ -15,6 +15,10 @@
 
 namespace hpvi
 {
+/** The largest eigenvalue of a symmetric tridiagonal matrix, by bisection of Sturm's sequence. */
+double largest_of_tridiagonal(const std::vector<double> &diagonal,
+                              const std::vector<double> &beside);
+
 /** What `C D Y D` has without D, C and Y symmetric positive semidefinite and D diagonal. */
 class CouplingMatrices
 {
