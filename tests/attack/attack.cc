@@ -274,7 +274,7 @@ attack::DrawnScene draw(const std::string &kind, std::mt19937 &random)
   if (kind == "boxes")
   {
     const std::string text = attack::box_scene(random);
-    return {text, text, false};
+    return {text, text, true};
   }
   const bool is_rough = kind == "rough" || kind == "coulomb";
   if (!is_rough && kind != "bodies" && kind != "unmatched")
@@ -341,20 +341,20 @@ const Overrides of_reference_in_space{{"Adaptivity/Method", "hap3"},
 Run Attack::solve_reference(double &bound, const unsigned int number) const
 {
   bound = infinity;
+  const auto keep_nearest = [&](const auto &step)
+  {
+    if (!(step.bound->total < bound))
+      return;
+    bound = step.bound->total;
+    std::ofstream file(stem + ".reference");
+    write_solution(file, step.field, step.energies.energy);
+  };
   if (kind(number) == "boxes")
-    return solve<3>(stem + "-reference.prm", of_reference_in_space);
+    return solve<3>(stem + "-reference.prm", of_reference_in_space, keep_nearest);
   Overrides entries = of_reference_run;
   if (has_curves(kind(number))) // polynomials of low degree make another body
     entries[1].second = "7";
-  return solve<2>(stem + "-reference.prm", entries,
-                  [&](const StepReport<2> &step)
-                  {
-                    if (!(step.bound->total < bound))
-                      return;
-                    bound = step.bound->total;
-                    std::ofstream file(stem + ".reference");
-                    write_solution(file, step.field, step.energies.energy);
-                  });
+  return solve<2>(stem + "-reference.prm", entries, keep_nearest);
 }
 
 /** What contradicts the theorems; the score takes in how near the bounds are. */
@@ -468,7 +468,7 @@ void Attack::try_scene(const unsigned int number)
   if (scene.shares_mesh && std::isfinite(of_reference))
     against.emplace_back("Error/Reference solution", stem + ".reference");
   const Run run =
-      kind(number) == "boxes" ? solve<3>(stem + ".prm", {}) : solve<2>(stem + ".prm", against);
+      kind(number) == "boxes" ? solve<3>(stem + ".prm", against) : solve<2>(stem + ".prm", against);
   std::vector<std::string> found = flaws(run, reference, of_reference, number);
   for (const std::string &surprise : {run.surprise, reference.surprise})
     if (!surprise.empty())

@@ -112,7 +112,9 @@ void Box::contact(std::ostream &out)
     out << "  set Contact = " << (opens ? "unilateral" : "bilateral") << "\n";
     if (opens && dice.happens(0.7))
       out << "  set Gap = " << positive(0.02) << " + " << function(0.005) << "\n";
-    if (!opens || dice.happens(0.6))
+    if (opens && dice.happens(0.5))
+      out << "  set Friction coefficient = " << positive(1.2) << "\n";
+    else if (!opens || dice.happens(0.6))
       out << "  set Friction bound = " << positive(0.02 * young) << "\n";
   }
   out << "end\n";
