@@ -24,7 +24,7 @@ SCENES, PAGE, TABLES = ROOT / "prm/published", ROOT / "doc/benchmarks.md", ROOT 
 MODULE, ROWS = (ROOT / f"source/python/hpvi/benchmarks.{end}" for end in ("py", "json"))
 ROUND_OFF = 1e-11  # of a value: what is never claimed
 NEAR = 5  # points of the contact table from which a value at a place is interpolated
-WORDS = {"energy": "guaranteed", "coupling": "bounded", "zones": "if", "estimate": "estimated"}
+WORDS = {"energy": "guaranteed", "coupling": "bounded", "zones": "if", "history": "bounded", "estimate": "estimated"}
 
 
 def benchmarks():

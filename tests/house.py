@@ -46,7 +46,7 @@ EVALUATIONS = {
     "source/results/residual_estimator.cc": 4, "source/results/true_error.cc": 3, "source/results/unseen_contact.cc":
     2, "source/bound/open_contact.cc": 1, "source/bound/stress_work.cc": 1, "source/bound/test_motion.cc": 2,
     "source/space/primal_space.cc": 3, "source/space/primal_system.cc": 1, "source/space/box_contact.cc": 2, "source/space/box_correction.cc": 2,
-    "source/space/box_coulomb.cc": 6,
+    "source/space/box_coulomb.cc": 8,
     "source/space/contact_statics.cc": 1, "source/space/load_check.cc": 3, "source/space/load_work.cc": 1, "source/space/strain_loads.cc": 1,
     "source/space/primal_field.cc": 1, "source/space/nodal_forces.cc": 1, "source/space/past_state.cc": 1,
     "source/space/upper_energy.cc": 1, "source/results/warnings/contact.cc": 2}

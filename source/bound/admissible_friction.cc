@@ -91,8 +91,7 @@ public:
         leans(may_have_transition(number, solution.z, solution.contact_space)),
         gauss(solution.tables.gauss(face.n_multipliers + 1)), z(discrete_friction(face, solution)),
         wanted(wanted_friction(face, solution)),
-        u_t(edge_trace(face, face.frame(0.5).tangent, solution.displacement_space, solution.tables,
-                       solution.u)),
+        u_t(slip_trace(face, solution.displacement_space, solution.tables, solution.u)),
         slip(leans ? 0. : common_slip(face, solution, u_t, rule))
   {
   }

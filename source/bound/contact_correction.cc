@@ -99,9 +99,7 @@ double energy_change(const Solution<dim> &solution, const Discretisation<dim> &d
   {
     const auto work = [&](const Vector<double> &u)
     {
-      return friction_gap(face,
-                          edge_trace(face, face.frame(0.5).tangent, solution.displacement_space,
-                                     solution.tables, u),
+      return friction_gap(face, slip_trace(face, solution.displacement_space, solution.tables, u),
                           solution.tables);
     };
     result += work(moved) - work(solution.u);

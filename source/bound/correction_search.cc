@@ -58,6 +58,9 @@ CorrectionSearch<dim>::CorrectionSearch(const Solution<dim> &solution,
   {
     traces.push_back(trace_of(faces[k], faces[k].frame(0.5).tangent, solution,
                               discretisation.unknowns, tables.from_nodes(faces[k].degree)));
+    if (faces[k].past)
+      traces[k].u =
+          (EdgePolynomial(traces[k].u) + less_past(faces[k], solution.tables)).coefficients();
     const Contact law = faces[k].condition->contact;
     if (!faces[k].segments.empty() && (law == Contact::tied || law == Contact::bilateral))
       joints.push_back({k, faces[k].frame(0.5).normal,

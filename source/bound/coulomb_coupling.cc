@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace hpvi
 {
@@ -245,6 +246,51 @@ double CoulombCoupling::closed_forms(const SlipDirection &chi,
   return result;
 }
 
+namespace
+{
+/** A place at which mu_f jumps on a face, or between two that follow each other, seen from the inside of each; nothing: there is none. */
+std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &faces,
+                                            const SlipDirection &chi,
+                                            const std::vector<bool> &sticks)
+{
+  constexpr double hair = 1e-7;
+  struct End
+  {
+    Tensor<1, 2> normal;
+    double mu;
+  };
+  std::map<unsigned int, End> at_vertices;
+  double largest = 0;
+  for (unsigned int k = 0; k < faces.size(); ++k)
+    for (const double s : {0., 0.5, 1.})
+      if (chi[k])
+        largest = std::max(largest,
+                           faces[k].friction_coefficient(faces[k].point(s)) * std::abs(chi[k](s)));
+  const auto differ = [&](const double a, const double b)
+  { return std::abs(a - b) > 1e-3 * largest; };
+  for (unsigned int k = 0; k < faces.size(); ++k)
+  {
+    if (!chi[k] || (!sticks.empty() && sticks[k]))
+      continue;
+    const auto mu = [&](const double s)
+    { return faces[k].friction_coefficient(faces[k].point(s)) * std::abs(chi[k](s)); };
+    for (const double cut : faces[k].coefficient.cuts)
+      if (cut > hair && cut < 1 - hair && differ(mu(cut - hair), mu(cut + hair)))
+        return faces[k].point(cut);
+    for (unsigned int end = 0; end < 2; ++end)
+    {
+      const End own{faces[k].frame(0.5).normal, mu(end == 0 ? hair : 1 - hair)};
+      const auto [known, is_new] =
+          at_vertices.emplace(faces[k].cell->face(faces[k].face_no)->vertex_index(end), own);
+      if (!is_new && (known->second.normal - own.normal).norm() < 1e-6 &&
+          differ(known->second.mu, own.mu))
+        return faces[k].point(end);
+    }
+  }
+  return std::nullopt;
+}
+} // namespace
+
 std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
                                           const std::vector<bool> &sticks) const
 {
@@ -296,6 +342,8 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
                ", where the body can slide but not lift, and no coupling is finite";
     }
   }
+  if (const auto x = jump_of_coefficient(faces, chi, sticks))
+    return "the coefficient of friction jumps at " + to_string(*x) + ", and no coupling is finite";
   return {};
 }
 

@@ -301,6 +301,28 @@ EdgePolynomial edge_trace(const ContactFace<dim> &face, const Tensor<1, dim> &di
   return EdgePolynomial::through(values, tables.gauss(n));
 }
 
+template <int dim>
+EdgePolynomial less_past(const ContactFace<dim> &face, const ShapeTables<dim> &tables)
+{
+  if (!face.past)
+    return {};
+  const QGauss<1> &gauss = tables.gauss(face.degree + 1);
+  std::vector<double> values;
+  for (const Point<1> &s : gauss.get_points())
+    values.push_back(-face.past_slip(face.point(s[0])));
+  return EdgePolynomial::through(values, gauss);
+}
+
+template <int dim>
+EdgePolynomial slip_trace(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
+                          const ShapeTables<dim> &tables, const Vector<double> &v)
+{
+  return edge_trace(face, face.frame(0.5).tangent, space, tables, v) + less_past(face, tables);
+}
+
+template EdgePolynomial less_past(const ContactFace<2> &, const ShapeTables<2> &);
+template EdgePolynomial slip_trace(const ContactFace<2> &, const DisplacementSpace<2> &,
+                                   const ShapeTables<2> &, const Vector<double> &);
 template double slip_at(unsigned int, const Vector<double> &, const ContactSpace<2> &);
 template bool has_transition(const ContactFace<2> &, const Vector<double> &,
                              const ContactSpace<2> &);

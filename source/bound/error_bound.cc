@@ -233,6 +233,21 @@ void set_flaw(ErrorBound &result, const std::string &why, const double size)
   }
 }
 
+/** Strides may lower the degree of a cell: then the past on its edge is of a higher one. */
+std::string flaw_of_past(const Solution<2> &solution)
+{
+  for (const ContactFace<2> &face : solution.contact_space.faces())
+    for (unsigned int i = 0; face.past && i <= 2 * face.degree; ++i)
+    {
+      const double s = i / (2. * face.degree), past = face.past_slip(face.point(s));
+      if (std::abs(past + less_past(face, solution.tables)(s)) >
+          1e-10 * (std::abs(past) + solution.u.linfty_norm()))
+        return "slip of the load step before has a higher degree than the edge at " +
+               to_string(face.point(0.5));
+    }
+  return {};
+}
+
 std::string flaw(const Solution<2> &solution, const AdmissiblePressure<2> &pressure,
                  const DataError &data, const bool has_rows)
 {
@@ -305,9 +320,27 @@ moved(const Solution<2> &solution, const Discretisation<2> &discretisation,
 }
 } // namespace
 
+void count_from_past(ErrorBound &result)
+{
+  if (result.kind == BoundKind::energy || result.kind == BoundKind::coupling)
+  {
+    result.kind = BoundKind::history;
+    result.theta = 0;
+    result.radius = result.total;
+    set_no_energy(result);
+  }
+  else if (result.kind == BoundKind::zones)
+  {
+    result.kind = BoundKind::estimate;
+    result.why = "where it sticks is assumed, and slip counts from the load step before";
+    result.total = result.radius = result.estimate;
+    result.zones.clear();
+  }
+}
+
 std::string text(const BoundKind kind)
 {
-  constexpr const char *words[] = {"energy", "coupling", "zones", "estimate"};
+  constexpr const char *words[] = {"energy", "coupling", "zones", "history", "estimate"};
   return words[static_cast<unsigned int>(kind)];
 }
 
@@ -540,8 +573,12 @@ try
     set_energy(result, stress, contact.in_energy, contact.change, data);
     result.moved_by_energy = contact.in_energy.energies;
   }
+  if (!solution.spaces->past.empty())
+    count_from_past(result);
   result.imbalance = stress.defect;
   result.flaw = flaw(solution, made->pressure, data, stress.has_rows());
+  if (result.flaw.empty())
+    result.flaw = flaw_of_past(solution);
   if (!result.flaw.empty())
     return result;
   const double violation = contact.correction ? std::max(contact.correction->penetration(),

@@ -585,8 +585,10 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
   take_bound(known_bound(), step, history.back());
   // Forces and means need displacements on a mesh of their own, and the body of a step is that of its degrees.
   const bool is_curved = scene.geometry.has_curves(),
-             is_bounded = step.bound && scene.intervals && !is_curved;
-  step.no_intervals = is_bounded ? backend->bound_forces(*step.bound, step.forces)
+             is_history = step.bound && step.bound->kind == BoundKind::history,
+             is_bounded = step.bound && scene.intervals && !is_curved && !is_history;
+  step.no_intervals = is_bounded   ? backend->bound_forces(*step.bound, step.forces)
+                      : is_history ? "slip counts from the load step before"
                       : step.bound && is_curved
                           ? "curved edges change with the degrees of their cells"
                           : step.no_bound;

@@ -54,6 +54,9 @@ std::string error_in_words(const std::string &kind, const std::string &size, con
     return "at most " + size + " for every solution of Coulomb's law, bounded " + known;
   if (kind == "zones")
     return "at most " + size + " if " + zones + ", and " + known;
+  if (kind == "history")
+    return "at most " + size + " for the slip that load steps before have computed, bounded" +
+           (std::isfinite(coupling) ? " " + known : "");
   if (kind == "estimate")
     return "about " + size + ", estimated";
   return "at most " + size + ", guaranteed";
@@ -66,6 +69,9 @@ std::string terms_in_words(const std::string &kind, const double coupling)
     return "bounded, coupling at most " + at_most(coupling);
   if (kind == "zones")
     return "if zones are as said, coupling at most " + at_most(coupling);
+  if (kind == "history")
+    return "bounded for the computed history" +
+           (std::isfinite(coupling) ? ", coupling at most " + at_most(coupling) : "");
   return "guaranteed";
 }
 /** With what it rests on, of a step that has a bound. */

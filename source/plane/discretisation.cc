@@ -37,7 +37,11 @@ std::string Spaces<dim>::no_error_bound(const Scene<dim> &scene) const
 {
   if (const std::string why = hpvi::no_error_bound(scene); !why.empty())
     return why;
-  return past.empty() ? "" : "friction acts on increments after the first load step";
+  for (const ContactFace<dim> &face : contact_space.faces())
+    if (face.past && (!face.segments.empty() || has_given_tractions(contact_space)))
+      return "friction between bodies, along curves and directions and around an axis counts slip "
+             "from the load step before";
+  return "";
 }
 
 template <int dim>

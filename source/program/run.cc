@@ -29,11 +29,11 @@ namespace hpvi
 {
 namespace
 {
-/** A load history has one for its first load step. */
+/** A load history may have one in each load step. */
 template <int dim>
 bool has_bound_column(const Scene<dim> &scene, const bool is_primal)
 {
-  return (!is_primal || (dim == 3 && !scene.has_coulomb_friction())) && scene.error_bound &&
+  return (!is_primal || dim == 3) && scene.error_bound &&
          (scene.has_load_history() || no_error_bound(scene).empty());
 }
 
@@ -163,7 +163,7 @@ std::string balance_in_words(const StepReport<dim> &step)
 
 /** Why a run is over: @p stopped_by as in StepReport, after a step with a bound of its error or without; @p by_coupling: one of Coulomb's law. */
 std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivity,
-                        const bool has_bound, const bool by_coupling)
+                        const bool has_bound, const std::string &terms)
 {
   const Stop stop = stopped_by.stop;
   if (stop == Stop::round_off)
@@ -174,18 +174,27 @@ std::string stop_reason(const StopReason &stopped_by, const Adaptivity &adaptivi
     return "done: the error, estimated by a stress in equilibrium, is below Adaptivity/Tolerance";
   if (stop == Stop::tolerance && !adaptivity.tolerance_column.empty())
     return "done: " + adaptivity.tolerance_column +
-           (by_coupling ? ", if the coupling is as estimated, is known" : " is guaranteed") +
+           (terms.empty() ? " is guaranteed" : ", " + terms + ", is known") +
            " to Adaptivity/Tolerance of its value";
   if (stop == Stop::tolerance && adaptivity.is_default_tolerance)
     return std::string("done: the error ") +
-           (has_bound && by_coupling && adaptivity.tolerance_on == Indicator::bound
-                ? "bound, if the coupling is as estimated, "
+           (has_bound && !terms.empty() && adaptivity.tolerance_on == Indicator::bound
+                ? "bound, " + terms + ", "
                 : "") +
            (has_bound && adaptivity.tolerance_on == Indicator::bound ? "" : "indicator ") +
            "is below " + default_tolerance + ", the default of Adaptivity/Tolerance";
   return "stopped by " + std::string(stop == Stop::load_step ? "the " : "Adaptivity/") +
          text(stopped_by);
 }
+
+/** What a bound rests on; empty: nothing. */
+std::string terms_of(const BoundKind kind)
+{
+  return kind == BoundKind::energy    ? ""
+         : kind == BoundKind::history ? "for the computed history"
+                                      : "if the coupling is as estimated";
+}
+
 /** What is said when the last step is over. */
 struct Ending
 {
@@ -205,7 +214,7 @@ void Ending::hear(const StepReport<dim> &step)
   load_steps = step.load.number;
   times += step.times;
   reason = stop_reason(step.stopped_by, step.scene.adaptivity, bool(step.bound),
-                       step.bound && step.bound->kind != BoundKind::energy);
+                       step.bound ? terms_of(step.bound->kind) : "");
   warnings = texts(step.warnings);
   if (step.bound)
     last_bound = "that of step " + text(step.number) + " is " + text(step.relative_bound, 2) +

@@ -252,6 +252,8 @@ ErrorBound BoxBound::compute()
   result.flaw = flaw;
   if (space.scene.has_coulomb_friction())
     set_coulomb(result, A, b);
+  if (space.past && space.scene.has_friction())
+    count_from_past(result);
   return result;
 }
 std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u)
@@ -265,8 +267,6 @@ std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u
     return "bodies in space touch each other";
   if (space.rests_on_contact)
     return "contact alone holds the body";
-  if (space.past)
-    return "slip is counted from the load step before";
   if (scene.has_springs())
     return "springs hold the body";
   if (scene.has_initial_strain())

@@ -167,23 +167,17 @@ double BoxBound::gap(const ContactDofFace<3> &face, const ContactTractions &of_f
   const double area = size[axes[0]] * size[axes[1]];
   const CellMap<3> map = map_of<3>(face.cell);
   const BoundaryCondition<3> &condition = space.condition(face.cell, face.face);
-  std::array<BoxModes, 3> of_u, of_w;
-  for (unsigned int c = 0; c < 3; ++c)
-    for (const auto dof : dofs[c])
-    {
-      of_u[c].push_back(u(dof));
-      of_w[c].push_back(w(dof));
-    }
   std::array<double, 2> by_rule{}, changes{};
   for (const bool is_finer : {false, true})
   {
     const QGauss<1> &rule = is_finer ? of.finer : of.fine;
     const FullMatrix<double> &values = is_finer ? of.to_finer : of.to_fine;
-    std::array<BoxModes, 3> u_q, w_q;
+    std::array<BoxModes, 3> u_q, w_q, slip_q;
     for (unsigned int c = 0; c < 3; ++c)
     {
-      u_q[c] = at(values, along_axes(of.nodal, of_u[c], 2));
-      w_q[c] = at(values, along_axes(of.nodal, of_w[c], 2));
+      u_q[c] = at(values, trace_of(u, dofs[c]));
+      w_q[c] = at(values, trace_of(w, dofs[c]));
+      slip_q[c] = at(values, slip_trace(dofs[c]));
     }
     const std::array<BoxModes, 3> contact_q{{at(values, of_face.lambda[0]),
                                              at(values, of_face.lambda[1]),
@@ -199,11 +193,11 @@ double BoxBound::gap(const ContactDofFace<3> &face, const ContactTractions &of_f
                   Tensor<1, 2> slip, before;
                   for (unsigned int s = 0; s < 2; ++s)
                   {
-                    before[s] = u_q[axes[s]][q];
+                    before[s] = slip_q[axes[s]][q];
                     slip[s] = before[s] - w_q[axes[s]][q];
                     gap -= g * contact_q[s][q] * slip[s];
                     of_contact += g * contact_q[s][q] * w_q[axes[s]][q];
-                    of_u_contact += g * contact_q[s][q] * before[s];
+                    of_u_contact += g * contact_q[s][q] * u_q[axes[s]][q];
                   }
                   gap += g * slip.norm();
                   friction += g * (slip.norm() - before.norm());

@@ -61,11 +61,11 @@ BoxModes BoxBound::violation(const ContactDofFace<3> &face, const unsigned int c
 {
   const double sign = face.face % 2 ? 1. : -1.;
   const auto dofs = face_dofs(face);
+  if (component != face.face / 2)
+    return slip_trace(dofs[component]);
   BoxModes values, result;
   for (const auto dof : dofs[component])
     values.push_back(u(dof));
-  if (component != face.face / 2)
-    return along_axes(of.nodal, values, 2);
   const BoxModes gaps = gaps_at_nodes(face);
   for (unsigned int i = 0; i < values.size(); ++i)
     values[i] = sign * values[i] - gaps[i];
@@ -189,6 +189,19 @@ BoxModes BoxBound::trace_of(const DistributedVector &of_vector,
   for (const auto dof : dofs)
     values.push_back(of_vector(dof));
   return along_axes(of.nodal, values, 2);
+}
+
+/** Of a tangential component of u_N, less the past from which slip counts. */
+BoxModes BoxBound::slip_trace(const std::vector<types::global_dof_index> &dofs) const
+{
+  BoxModes result = trace_of(u, dofs);
+  if (space.past)
+  {
+    const BoxModes before = trace_of(*space.past, dofs);
+    for (unsigned int i = 0; i < result.size(); ++i)
+      result[i] -= before[i];
+  }
+  return result;
 }
 
 /**

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace hpvi
 {
@@ -43,38 +44,53 @@ bool BoxBound::couples(const ContactDofFace<3> &face) const
 }
 
 /**
- * chi has to be continuous: a Bernstein coefficient that faces share becomes the mean of those of faces that press, which is in the disc
- * as these are. Where nothing presses it is zero, but for what neighbours have.
+ * chi has to be continuous along each side: a Bernstein coefficient that faces share becomes the mean of those of faces on which friction acts,
+ * which is in the disc as these are. It is zero where a support holds it, and where nothing acts, but for what neighbours have.
  */
 void BoxBound::join_directions()
 {
-  std::vector<double> sums(space.dof_handler.n_dofs()), counts(sums.size());
+  // By unknown and axis of the side: at an edge of two sides an unknown belongs to both, and is another component of chi.
+  std::vector<double> sums(3 * space.dof_handler.n_dofs()), counts(sums.size());
   std::vector<std::vector<std::vector<types::global_dof_index>>> dofs;
   for (unsigned int k = 0; k < contact.size(); ++k)
   {
     const ContactDofFace<3> &face = space.faces[k];
     dofs.push_back(face_dofs(face));
-    if (!couples(face) ||
-        *std::max_element(contact[k].pressure.begin(), contact[k].pressure.end()) <= 0)
+    const bool acts = space.condition(face.cell, face.face).friction.bound ||
+                      (face.has_pressure() && *std::max_element(contact[k].pressure.begin(),
+                                                                contact[k].pressure.end()) > 0);
+    if (!couples(face) || !acts)
       continue;
     const auto axes = tangents<3>(face.face);
     for (unsigned int t = 0; t < 2; ++t)
       for (unsigned int i = 0; i < contact[k].lambda[t].size(); ++i)
       {
-        sums[dofs[k][axes[t]][i]] += contact[k].lambda[t][i];
-        ++counts[dofs[k][axes[t]][i]];
+        const auto place = 3 * dofs[k][axes[t]][i] + face.face / 2;
+        sums[place] += contact[k].lambda[t][i];
+        ++counts[place];
       }
   }
   DistributedVector chi = space.ghosted_vector();
   for (const unsigned int k : coarse_first())
-    if (couples(space.faces[k]))
+    if (const unsigned int side = space.faces[k].face; couples(space.faces[k]))
       for (unsigned int t = 0; t < 2; ++t)
       {
-        const auto &own = dofs[k][tangents<3>(space.faces[k].face)[t]];
+        const auto &own = dofs[k][tangents<3>(side)[t]];
         for (unsigned int i = 0; i < own.size(); ++i)
-          contact[k].lambda[t][i] = counts[own[i]] > 0 ? sums[own[i]] / counts[own[i]] : 0.;
+        {
+          const auto place = 3 * own[i] + side / 2;
+          contact[k].lambda[t][i] =
+              counts[place] > 0 && !is_supported(own[i]) ? sums[place] / counts[place] : 0.;
+        }
         set_trace(own, 1., contact[k].lambda[t], chi);
       }
+}
+
+/** Is a displacement prescribed, or held on a plane? */
+bool BoxBound::is_supported(const types::global_dof_index dof) const
+{
+  const auto *const entries = space.constraints.get_constraint_entries(dof);
+  return entries && entries->empty();
 }
 
 /** mu_f chi at contact dofs. */
@@ -107,23 +123,82 @@ std::vector<ContactVector<3>> BoxBound::couplings() const
   return result;
 }
 
-/** Where no coupling is finite: something holds the normal displacement at an edge of contact and leaves what slips. Empty: nowhere. */
-std::string BoxBound::unbounded() const
+/** Unknowns at which X has no value: along friction, and across other contact that has a pressure. */
+std::set<types::global_dof_index> BoxBound::without_lift() const
 {
-  std::vector<bool> is_held(space.dof_handler.n_dofs()), is_free(is_held.size(), true);
-  for (const auto dof : space.owned)
-    if (const auto *const entries = space.constraints.get_constraint_entries(dof))
-    {
-      is_held[dof] = entries->empty();
-      is_free[dof] = !entries->empty();
-    }
-  for (const ContactDofFace<3> &face : space.faces) // X_t = 0 along friction
+  std::set<types::global_dof_index> result;
+  for (const ContactDofFace<3> &face : space.faces)
   {
     const auto dofs = face_dofs(face);
-    for (unsigned int t = 0; face.has_friction() && t < 2; ++t)
-      for (const auto dof : dofs[tangents<3>(face.face)[t]])
-        is_held[dof] = true;
+    for (unsigned int c = 0; c < 3; ++c)
+      if (c == face.face / 2 ? face.has_pressure() && !couples(face) : face.has_friction())
+        result.insert(dofs[c].begin(), dofs[c].end());
   }
+  return result;
+}
+
+/** A place at which mu_f jumps on a face, or between two of them, seen from the inside of each; nothing: there is none. */
+std::optional<Point<3>> BoxBound::jump_of_coefficient() const
+{
+  constexpr unsigned int n = 33;
+  constexpr double hair = 1e-7;
+  std::map<types::global_dof_index, double> at_nodes;
+  for (const ContactDofFace<3> &face : space.faces)
+  {
+    if (!couples(face))
+      continue;
+    const CellMap<3> map = map_of<3>(face.cell);
+    const FrictionLaw<3> &friction = space.condition(face.cell, face.face).friction;
+    const auto point = [&](const double s, const double t) {
+      return map.point(on_cell_face(face.face, {{s, t, 0.}}));
+    };
+    const auto mu = [&](const double s, const double t)
+    {
+      return friction.coefficient_at(
+          point(std::clamp(s, hair, 1 - hair), std::clamp(t, hair, 1 - hair)));
+    };
+    const auto dofs = face_dofs(face)[face.face / 2];
+    double largest = 0;
+    const auto differ = [&](const double a, const double b)
+    { return std::abs(a - b) > 1e-3 * largest; };
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      largest = std::max(largest, mu(of.nodes[i % (p + 1)], of.nodes[i / (p + 1)]));
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+    {
+      const double s = of.nodes[i % (p + 1)], t = of.nodes[i / (p + 1)];
+      const auto [known, is_new] = at_nodes.emplace(dofs[i], mu(s, t));
+      if (!is_new && differ(known->second, mu(s, t)))
+        return point(s, t);
+    }
+    for (const double across : of.nodes)
+      for (const bool is_first : {true, false})
+      {
+        const auto along = [&](const double x) { return is_first ? mu(x, across) : mu(across, x); };
+        for (unsigned int k = 0; k + 1 < n; ++k)
+        {
+          double a = double(k) / (n - 1), b = double(k + 1) / (n - 1);
+          for (unsigned int halves = 0; halves < 20 && differ(along(a), along(b)); ++halves)
+          {
+            const double middle = (a + b) / 2;
+            (std::abs(along(a) - along(middle)) > std::abs(along(b) - along(middle)) ? b : a) =
+                middle;
+          }
+          if (differ(along(a), along(b)))
+            return is_first ? point(a, across) : point(across, a);
+        }
+      }
+  }
+  return std::nullopt;
+}
+
+/** Where no coupling is finite: something holds the normal displacement at an edge of contact and leaves what slips, or mu_f jumps. Empty: nowhere. */
+std::string BoxBound::unbounded() const
+{
+  std::vector<bool> is_held(space.dof_handler.n_dofs());
+  for (const auto dof : space.owned)
+    is_held[dof] = is_supported(dof);
+  for (const auto dof : without_lift())
+    is_held[dof] = true;
   for (unsigned int k = 0; k < contact.size(); ++k)
   {
     const ContactDofFace<3> &face = space.faces[k];
@@ -136,7 +211,7 @@ std::string BoxBound::unbounded() const
       {
         const Point<3> x = map.point(
             on_cell_face(face.face, {{of.nodes[i % (p + 1)], of.nodes[i / (p + 1)], 0.}}));
-        if (is_held[dofs[face.face / 2][i]] && is_free[dofs[tangents<3>(face.face)[t]][i]] &&
+        if (is_held[dofs[face.face / 2][i]] && !is_supported(dofs[tangents<3>(face.face)[t]][i]) &&
             std::abs(contact[k].lambda[t][i]) *
                     space.condition(face.cell, face.face).friction.coefficient_at(x) >
                 no_slip)
@@ -144,6 +219,8 @@ std::string BoxBound::unbounded() const
                  ", where the body can slide but not lift, and no coupling is finite";
       }
   }
+  if (const auto x = jump_of_coefficient())
+    return "the coefficient of friction jumps at " + to_string(*x) + ", and no coupling is finite";
   return {};
 }
 
@@ -162,7 +239,7 @@ std::vector<double> BoxBound::against(const unsigned int number,
   const auto dofs = face_dofs(face);
   for (unsigned int c = 0; c < 3; ++c)
   {
-    U[c] = at(values, trace_of(u, dofs[c]));
+    U[c] = at(values, c == axis ? trace_of(u, dofs[c]) : slip_trace(dofs[c]));
     const BoxModes of_w = at(values, trace_of(w, dofs[c]));
     for (unsigned int q = 0; q < of_w.size(); ++q)
       U[c][q] -= of_w[q];
@@ -183,31 +260,21 @@ std::vector<double> BoxBound::against(const unsigned int number,
 }
 
 /**
- * Bernstein coefficients of M' by face, and X with X_n = M', all other nodal values zero; X infinite in its first place: supports are in the way. A
- * coefficient is the largest value that M' has to have near its place, all of them are enlarged until samples are below.
+ * Bernstein coefficients of M' by face, and X with X_n = M', all other nodal values zero; nothing: what holds the body is in the way. A
+ * coefficient is the largest value that M' has to have near its place; all of them are enlarged until samples are below.
  */
-std::vector<BoxModes> BoxBound::bumps(DistributedVector &X) const
+std::optional<std::vector<BoxModes>> BoxBound::bumps(DistributedVector &X) const
 {
-  const unsigned int n = p + 1, per_part = 4, n_points = per_part * p + 1;
+  const unsigned int per_part = 4, n_points = per_part * p + 1;
   const std::vector<double> points = equidistant(n_points);
-  std::vector<double> heights(space.dof_handler.n_dofs());
   std::vector<std::vector<double>> needed(contact.size());
   for (unsigned int k = 0; k < contact.size(); ++k)
-  {
-    if (!couples(space.faces[k]))
-      continue;
-    needed[k] = against(k, points);
-    const auto dofs = face_dofs(space.faces[k])[space.faces[k].face / 2];
-    for (unsigned int q = 0; q < needed[k].size(); ++q)
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (std::abs(int(q % n_points) - int(per_part * (i % n))) <= int(per_part) &&
-            std::abs(int(q / n_points) - int(per_part * (i / n))) <= int(per_part))
-          heights[dofs[i]] = std::max(heights[dofs[i]], needed[k][q]);
-  }
-  for (const auto dof : space.owned) // halves of an edge take over what its whole has
-    if (const auto *const entries = space.constraints.get_constraint_entries(dof))
-      for (const auto &[other, weight] : *entries)
-        heights[other] = std::max(heights[other], heights[dof]);
+    if (couples(space.faces[k]))
+      needed[k] = against(k, points);
+  const std::vector<double> heights = heights_of(needed, n_points);
+  for (const auto dof : without_lift())
+    if (heights[dof] > 0)
+      return std::nullopt;
   std::vector<BoxModes> result(contact.size());
   const FullMatrix<double> values = bernstein_at(points, p);
   double factor = 1;
@@ -222,15 +289,51 @@ std::vector<BoxModes> BoxBound::bumps(DistributedVector &X) const
     set_trace(dofs, face.face % 2 ? 1. : -1., result[k], X);
     const BoxModes bump = at(values, result[k]);
     for (unsigned int q = 0; q < bump.size(); ++q)
-      if (needed[k][q] > 0)
-        factor = std::max(factor, bump[q] > 0 ? needed[k][q] / bump[q] : infinity);
+      if (needed[k][q] > 0 && !(bump[q] > 0))
+        return std::nullopt;
+      else if (needed[k][q] > 0)
+        factor = std::max(factor, needed[k][q] / bump[q]);
   }
   factor *= reserve;
   set_constrained(X);
   X *= factor;
-  for (BoxModes &bump : result)
-    for (double &coefficient : bump)
+  for (unsigned int k = 0; k < result.size(); ++k)
+  {
+    for (double &coefficient : result[k])
       coefficient *= factor;
+    if (result[k].empty())
+      continue;
+    const ContactDofFace<3> &face = space.faces[k];
+    const BoxModes of_X = trace_of(X, face_dofs(face)[face.face / 2]);
+    for (unsigned int i = 0; i < of_X.size(); ++i)
+      if (std::abs(of_X[i] - (face.face % 2 ? 1. : -1.) * result[k][i]) > 1e-9 * u.linfty_norm())
+        return std::nullopt;
+  }
+  return result;
+}
+
+/** By unknown, the largest of what M' needs at samples near its node; zero where supports are. */
+std::vector<double> BoxBound::heights_of(const std::vector<std::vector<double>> &needed,
+                                         const unsigned int n_points) const
+{
+  const unsigned int n = p + 1, per_part = (n_points - 1) / p;
+  std::vector<double> result(space.dof_handler.n_dofs());
+  for (unsigned int k = 0; k < contact.size(); ++k)
+  {
+    const auto dofs = face_dofs(space.faces[k])[space.faces[k].face / 2];
+    for (unsigned int q = 0; q < needed[k].size(); ++q)
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (std::abs(int(q % n_points) - int(per_part * (i % n))) <= int(per_part) &&
+            std::abs(int(q / n_points) - int(per_part * (i / n))) <= int(per_part))
+          result[dofs[i]] = std::max(result[dofs[i]], needed[k][q]);
+  }
+  for (const auto dof : space.owned) // halves of an edge take over what its whole has
+    if (const auto *const entries = space.constraints.get_constraint_entries(dof))
+      for (const auto &[other, weight] : *entries)
+        result[other] = std::max(result[other], result[dof]);
+  for (const auto dof : space.owned)
+    if (is_supported(dof))
+      result[dof] = 0;
   return result;
 }
 
@@ -250,7 +353,7 @@ double BoxBound::energy_norm(const DistributedVector &of_vector) const
   return std::sqrt(std::max(0., square));
 }
 
-/** int pi (u_0 - U_n + M') over friction that couples, and the gap of all other contact. */
+/** int pi (u_0 - U_n + M') over friction that couples, int g (|U_t| - chi . U_t) of what it has without pressure, and the gap of other contact. */
 double BoxBound::coulomb_gap(const std::vector<BoxModes> &bumps) const
 {
   double result = 0;
@@ -268,6 +371,7 @@ double BoxBound::coulomb_gap(const std::vector<BoxModes> &bumps) const
     const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
     const CellMap<3> map = map_of<3>(face.cell);
     const Expression<3> &gap = space.condition(face.cell, face.face).gap;
+    const FrictionLaw<3> &friction = space.condition(face.cell, face.face).friction;
     BoxModes U_n = trace_of(u, face_dofs(face)[axis]);
     const BoxModes w_n = trace_of(w, face_dofs(face)[axis]);
     for (unsigned int i = 0; i < U_n.size(); ++i)
@@ -278,12 +382,26 @@ double BoxBound::coulomb_gap(const std::vector<BoxModes> &bumps) const
       const FullMatrix<double> &values = is_finer ? of.to_finer : of.to_fine;
       const BoxModes normal = at(values, U_n), bump = at(values, bumps[k]),
                      pressure = at(values, contact[k].pressure);
+      std::array<BoxModes, 2> slip, chi;
+      for (unsigned int t = 0; t < 2; ++t)
+      {
+        const auto dofs = face_dofs(face)[axes[t]];
+        slip[t] = at(values, slip_trace(dofs));
+        const BoxModes of_w = at(values, trace_of(w, dofs));
+        for (unsigned int q = 0; q < of_w.size(); ++q)
+          slip[t][q] -= of_w[q];
+        chi[t] = at(values, contact[k].lambda[t]);
+      }
       at_points(is_finer ? of.finer : of.fine, 2,
                 [&](const unsigned int q, const std::array<double, 3> &x, const double weight)
                 {
-                  const double u_0 = gap ? gap->value(map.point(on_cell_face(face.face, x))) : 0.;
-                  by_rule[is_finer] += weight * size[axes[0]] * size[axes[1]] * pressure[q] *
-                                       (u_0 - normal[q] + bump[q]);
+                  const Point<3> place = map.point(on_cell_face(face.face, x));
+                  const double u_0 = gap ? gap->value(place) : 0.,
+                               lost = std::hypot(slip[0][q], slip[1][q]) - chi[0][q] * slip[0][q] -
+                                      chi[1][q] * slip[1][q];
+                  by_rule[is_finer] +=
+                      weight * size[axes[0]] * size[axes[1]] *
+                      (pressure[q] * (u_0 - normal[q] + bump[q]) + friction.bound_at(place) * lost);
                 });
     }
     result += std::max(0., by_rule[1]) + std::abs(by_rule[1] - by_rule[0]);
@@ -326,11 +444,11 @@ void BoxBound::set_coulomb(ErrorBound &result, const double A, const double b)
     return;
   result.coupling = std::max(largest, margin * friction_coupling(space, matrix, couplings()));
   DistributedVector X = space.ghosted_vector();
-  const std::vector<BoxModes> of_slip = bumps(X);
-  const double lift = energy_norm(X),
-               total = result.coupling <= largest_coupling && std::isfinite(lift)
-                           ? coulomb_bound(result.coupling, {A, coulomb_gap(of_slip), b, lift})
-                           : infinity;
+  const auto of_slip = bumps(X);
+  const double total =
+      result.coupling <= largest_coupling && of_slip
+          ? coulomb_bound(result.coupling, {A, coulomb_gap(*of_slip), b, energy_norm(X)})
+          : infinity;
   if (std::isfinite(total))
   {
     result.total = result.radius = total;

@@ -145,13 +145,13 @@ class Scenes(unittest.TestCase):
         self.assertIn("<svg", hpvi.Scene({**BAR, "Title": "<a> & $b$"}).picture())
 
     def outlines(self, drawn):
-        """Of the faces in space that are drawn: their colour is that of the small faces of which they consist."""
+        """Of the faces in space that are drawn, from below and from above."""
         return [collection for collection in drawn.axes.collections if collection.get_gid() == "faces"]
 
     def test_in_space_each_face_of_a_box_is_seen_once(self):
         drawn = self.draw("slab")
         below, above = self.outlines(drawn)
-        n_faces = [sum(colour[3] == 0 for colour in one.get_facecolors()) for one in (below, above)]
+        n_faces = [len(one.get_paths()) for one in (below, above)]
         self.assertEqual(n_faces, [16 + 8 + 8] * 2)  # bottom, left and back of 4 x 4 x 2 cells; top, right and front
         contact = matplotlib.colors.to_rgba(space.TINTS["contact"][0])
         self.assertEqual([sum(tuple(colour) == contact for colour in one.get_facecolors()) for one in (below, above)], [8, 0])

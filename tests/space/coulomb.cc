@@ -384,106 +384,121 @@ struct Stages : BoxBound
 /** Of any displacement: chi is continuous and in the disc, M' where it has to be, and X has it as its normal trace. */
 TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
 {
-  on_block(
-      {given::steps("hap2", "3"), {"Boundary bottom/Friction coefficient", "0.5"}},
-      [&](const PrimalSpace<3> &space, const DistributedVector &solution)
-      {
-        ASSERT_TRUE(space.dof_handler.get_triangulation().has_hanging_nodes());
-        std::mt19937 random(7);
-        std::uniform_real_distribution<double> any(-1, 1);
-        DistributedVector u = solution;
-        std::vector<ContactVector<3>> lambda(space.contact.size());
-        for (const ContactDofFace<3> &face : space.faces)
-          for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
-          {
-            const double angle = 3 * any(random);
-            lambda[face.friction + k] = ContactVector<3>({std::cos(angle), std::sin(angle)});
-            lambda[face.pressure + k][0] = face.cell->center()[0] > 0.5 ? 1 + any(random) : 0;
-          }
-        PrimalSystem<3> system(space);
-        NewtonMatrix<3> matrix(space, system);
-        Stages stages(space, matrix, u, lambda, 0);
-        const ErrorBound bound = stages.compute();
-        std::map<std::array<int, 2>, std::array<double, 3>> known; // chi and M' at places
-        DistributedVector X = space.ghosted_vector();
-        const std::vector<BoxModes> bumps = stages.bumps(X);
-        double largest = 0, gap = 0;
-        const QGauss<1> rule(12);
-        for (unsigned int k = 0; k < space.faces.size(); ++k)
+  const Overrides cohesive{given::steps("hap2", "3"),
+                           {"Boundary bottom/Friction coefficient", "0.5"},
+                           {"Boundary bottom/Friction bound", "0.3 + 0.1*z"},
+                           {"Boundary bottom/Friction law", "cohesive"}},
+      held_in_part{{"Geometry/Subdivisions", "2, 1, 2"},
+                   {"Boundary part/On", "left"},
+                   {"Boundary part/Where", "0.5 - z"},
+                   {"Boundary part/Displacement", "0; free; 0"}};
+  for (const Overrides &entries : {cohesive, with(cohesive, held_in_part)})
+    on_block(
+        entries,
+        [&](const PrimalSpace<3> &space, const DistributedVector &solution)
         {
-          const ContactDofFace<3> &face = space.faces[k];
-          const CellMap<3> map = map_of<3>(face.cell);
-          const std::vector<double> points{0, 0.25, 0.5, 0.75, 1}, odd{0.03, 0.21, 0.62, 0.97};
-          const auto values_of = [&](const std::vector<double> &where, const BoxModes &coefficients)
-          { return at(bernstein_at(where, stages.p), coefficients); };
-          const BoxModes chi_x = values_of(points, stages.contact[k].lambda[0]),
-                         chi_z = values_of(points, stages.contact[k].lambda[1]),
-                         bump = values_of(points, bumps[k]), beside = values_of(odd, bumps[k]);
-          for (unsigned int q = 0; q < 25; ++q)
+          ASSERT_TRUE(space.dof_handler.get_triangulation().has_hanging_nodes());
+          std::mt19937 random(7);
+          std::uniform_real_distribution<double> any(-1, 1);
+          DistributedVector u = solution;
+          std::vector<ContactVector<3>> lambda(space.contact.size());
+          for (const ContactDofFace<3> &face : space.faces)
+            for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+            {
+              const double angle = 3 * any(random);
+              lambda[face.friction + k] = ContactVector<3>({std::cos(angle), std::sin(angle)});
+              lambda[face.pressure + k][0] = face.cell->center()[0] > 0.5 ? 1 + any(random) : 0;
+            }
+          PrimalSystem<3> system(space);
+          NewtonMatrix<3> matrix(space, system);
+          Stages stages(space, matrix, u, lambda, 0);
+          const ErrorBound bound = stages.compute();
+          std::map<std::array<int, 2>, std::array<double, 3>> known; // chi and M' at places
+          DistributedVector X = space.ghosted_vector();
+          const std::vector<BoxModes> bumps = stages.bumps(X).value();
+          double largest = 0, gap = 0;
+          const QGauss<1> rule(12);
+          for (unsigned int k = 0; k < space.faces.size(); ++k)
           {
-            const Point<3> x =
-                map.point(on_cell_face(face.face, {{points[q % 5], points[q / 5], 0.}}));
-            EXPECT_LE(std::hypot(chi_x[q], chi_z[q]), 1 + 1e-12);
-            const std::array<double, 3> here{{chi_x[q], chi_z[q], bump[q]}};
-            const auto [at_place, is_new] = known.emplace(
-                std::array<int, 2>{{int(std::lround(1e6 * x[0])), int(std::lround(1e6 * x[2]))}},
-                here);
-            for (unsigned int i = 0; i < 3 && !is_new; ++i)
-              EXPECT_NEAR(at_place->second[i], here[i], 1e-10) << x;
+            const ContactDofFace<3> &face = space.faces[k];
+            const CellMap<3> map = map_of<3>(face.cell);
+            const std::vector<double> points{0, 0.25, 0.5, 0.75, 1}, odd{0.03, 0.21, 0.62, 0.97};
+            const auto values_of =
+                [&](const std::vector<double> &where, const BoxModes &coefficients)
+            { return at(bernstein_at(where, stages.p), coefficients); };
+            const BoxModes chi_x = values_of(points, stages.contact[k].lambda[0]),
+                           chi_z = values_of(points, stages.contact[k].lambda[1]),
+                           bump = values_of(points, bumps[k]), beside = values_of(odd, bumps[k]);
+            for (unsigned int q = 0; q < 25; ++q)
+            {
+              const Point<3> x =
+                  map.point(on_cell_face(face.face, {{points[q % 5], points[q / 5], 0.}}));
+              EXPECT_LE(std::hypot(chi_x[q], chi_z[q]), 1 + 1e-12);
+              const std::array<double, 3> here{{chi_x[q], chi_z[q], bump[q]}};
+              const auto [at_place, is_new] = known.emplace(
+                  std::array<int, 2>{{int(std::lround(1e6 * x[0])), int(std::lround(1e6 * x[2]))}},
+                  here);
+              for (unsigned int i = 0; i < 3 && !is_new; ++i)
+                EXPECT_NEAR(at_place->second[i], here[i], 1e-10) << x;
+            }
+            const std::vector<double> needed = stages.against(k, odd);
+            for (unsigned int q = 0; q < needed.size(); ++q)
+            {
+              EXPECT_GE(beside[q], needed[q]);
+              largest = std::max(largest, needed[q]);
+            }
+            // X has this normal trace, and none along the face
+            const auto dofs = stages.face_dofs(face);
+            const std::vector<Point<1>> nodes = QGaussLobatto<1>(stages.p + 1).get_points();
+            std::vector<double> of_nodes;
+            for (const Point<1> &node : nodes)
+              of_nodes.push_back(node[0]);
+            const BoxModes normal = values_of(of_nodes, bumps[k]);
+            for (unsigned int i = 0; i < normal.size(); ++i)
+            {
+              EXPECT_NEAR(-X(dofs[1][i]), normal[i], 1e-12);
+              EXPECT_EQ(X(dofs[0][i]), 0);
+              EXPECT_EQ(X(dofs[2][i]), 0);
+            }
+            std::vector<double> gauss;
+            for (const Point<1> &point : rule.get_points())
+              gauss.push_back(point[0]);
+            const BoxModes pressure = values_of(gauss, stages.contact[k].pressure),
+                           M = values_of(gauss, bumps[k]),
+                           along_x = values_of(gauss, stages.contact[k].lambda[0]),
+                           along_z = values_of(gauss, stages.contact[k].lambda[1]);
+            const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
+            const CellField<3> field = space.field(face.cell, u),
+                               of_w = space.field(face.cell, stages.w);
+            for (unsigned int q = 0; q < M.size(); ++q)
+            {
+              const Point<3> unit(gauss[q % 12], 0, gauss[q / 12]);
+              Tensor<1, 3> U;
+              for (unsigned int i = 0; i < field.size(); ++i)
+                U += space.tables.fe.shape_value(space.tables.numbers[i][1], unit) *
+                     (field[i] - of_w[i]);
+              const BoundaryCondition<3> &condition = space.condition(face.cell, face.face);
+              const double u_0 = condition.gap->value(map.point(unit)),
+                           g = condition.friction.bound_at(map.point(unit));
+              gap += rule.weight(q % 12) * rule.weight(q / 12) * size[0] * size[2] *
+                     (pressure[q] * (u_0 + U[1] + M[q]) +
+                      g * (std::hypot(U[0], U[2]) - along_x[q] * U[0] - along_z[q] * U[2]));
+            }
           }
-          const std::vector<double> needed = stages.against(k, odd);
-          for (unsigned int q = 0; q < needed.size(); ++q)
-          {
-            EXPECT_GE(beside[q], needed[q]);
-            largest = std::max(largest, needed[q]);
-          }
-          // X has this normal trace, and none along the face
-          const auto dofs = stages.face_dofs(face);
-          const std::vector<Point<1>> nodes = QGaussLobatto<1>(stages.p + 1).get_points();
-          std::vector<double> of_nodes;
-          for (const Point<1> &node : nodes)
-            of_nodes.push_back(node[0]);
-          const BoxModes normal = values_of(of_nodes, bumps[k]);
-          for (unsigned int i = 0; i < normal.size(); ++i)
-          {
-            EXPECT_NEAR(-X(dofs[1][i]), normal[i], 1e-12);
-            EXPECT_EQ(X(dofs[0][i]), 0);
-            EXPECT_EQ(X(dofs[2][i]), 0);
-          }
-          std::vector<double> gauss;
-          for (const Point<1> &point : rule.get_points())
-            gauss.push_back(point[0]);
-          const BoxModes pressure = values_of(gauss, stages.contact[k].pressure),
-                         M = values_of(gauss, bumps[k]);
-          const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
-          const CellField<3> field = space.field(face.cell, u),
-                             of_w = space.field(face.cell, stages.w);
-          for (unsigned int q = 0; q < M.size(); ++q)
-          {
-            const Point<3> unit(gauss[q % 12], 0, gauss[q / 12]);
-            double U_y = 0;
-            for (unsigned int i = 0; i < field.size(); ++i)
-              U_y += space.tables.fe.shape_value(space.tables.numbers[i][1], unit) *
-                     (field[i][1] - of_w[i][1]);
-            const double u_0 = space.condition(face.cell, face.face).gap->value(map.point(unit));
-            gap += rule.weight(q % 12) * rule.weight(q / 12) * size[0] * size[2] * pressure[q] *
-                   (u_0 + U_y + M[q]);
-          }
-        }
-        EXPECT_GT(largest, 1e-3);
-        EXPECT_NEAR(stages.coulomb_gap(bumps), gap, 1e-4 * gap);
-        DistributedVector product = space.owned_vector(), of_X = space.in_contact_dofs(X);
-        matrix.multiply(product, of_X);
-        EXPECT_NEAR(stages.energy_norm(X), std::sqrt(product * of_X), 1e-9);
-        EXPECT_LE(bound.coupling, largest_coupling);
-        const auto sum = [](const std::vector<double> &all)
-        { return std::accumulate(all.begin(), all.end(), 0.); };
-        const double b = std::sqrt(sum(bound.moved)),
-                     A = std::sqrt(sum(bound.squares) - bound.slip * bound.slip);
-        EXPECT_NEAR(
-            bound.total,
-            coulomb_bound(bound.coupling, {A, stages.coulomb_gap(bumps), b, stages.energy_norm(X)}),
-            1e-9 * bound.total);
-      });
+          EXPECT_GT(largest, 1e-3);
+          EXPECT_NEAR(stages.coulomb_gap(bumps), gap, 1e-4 * gap);
+          DistributedVector product = space.owned_vector(), of_X = space.in_contact_dofs(X);
+          matrix.multiply(product, of_X);
+          EXPECT_NEAR(stages.energy_norm(X), std::sqrt(product * of_X), 1e-9);
+          EXPECT_LE(bound.coupling, largest_coupling);
+          const auto sum = [](const std::vector<double> &all)
+          { return std::accumulate(all.begin(), all.end(), 0.); };
+          const double b = std::sqrt(sum(bound.moved)),
+                       A = std::sqrt(sum(bound.squares) - bound.slip * bound.slip);
+          EXPECT_NEAR(bound.total,
+                      coulomb_bound(bound.coupling,
+                                    {A, stages.coulomb_gap(bumps), b, stages.energy_norm(X)}),
+                      1e-9 * bound.total);
+        });
 }
 } // namespace

@@ -7,9 +7,13 @@
 #include <hpvi/plane/interpolation.h>
 #include <hpvi/plane/tangential_trace.h>
 #include <hpvi/reader/closed_forms/partial_slip.h>
+#include <hpvi/results/stored_solution.h>
+#include <hpvi/results/true_error.h>
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 
 namespace
 {
@@ -993,4 +997,86 @@ INSTANTIATE_TEST_SUITE_P(
                  {"Boundary right/Displacement", "0.01*t*(1 + y^2); free"},
                  {"Boundary left/Traction", "0.5*sin(8*t); 0.1"},
                  {"Body force/Expression", "0.1*t; -0.1"}}}));
+
+/** Both load steps of a block that is pressed, pushed to the right and back. */
+Scene<2> pushed_and_back(const Overrides &entries)
+{
+  return scene_of(with({{"Geometry/Upper corner", "2, 1"},
+                        {"Geometry/Subdivisions", "4, 2"},
+                        {"Material/Young's modulus", "100"},
+                        {"Material/Poisson's ratio", "0.3"},
+                        {"Loading/Steps", "2"},
+                        {"Boundary top/Displacement", "if(t < 0.7, 0.04, 0.015); -0.03"},
+                        {"Error/Bound", "true"}},
+                       entries));
+}
+
+/**
+ * In the second load step the bound is one for the slip that the first has computed: it is above the error, by a solution with
+ * this past that is far finer.
+ */
+TEST(LoadHistory, HasABoundForTheComputedPast)
+{
+  const std::string file =
+      (std::filesystem::temp_directory_path() / "hpvi-past-reference").string();
+  const Overrides coarse{given::steps("hup3", "2")},
+      fine{given::steps("hup4", "5"), {"Adaptivity/Start degree", "6"}, {"Error/Bound", "false"}};
+  struct Row
+  {
+    Overrides entries;
+    double most; ///< bound over error
+  };
+  for (const Row &row :
+       {Row{given::rough("bottom", "bilateral", "1.2"), 2.},
+        Row{with(given::rough("bottom", "unilateral", "0.8 + 0.3*x"),
+                 {{"Boundary bottom/Gap", "0.004*(x - 1)^2"}}),
+            3.},
+        Row{with(given::coulomb("0.4"), {{"Boundary bottom/Contact", "unilateral"}}), 4.}})
+  {
+    PastSlip<2> past;
+    LoadHistory<2>(pushed_and_back(with(row.entries, coarse)))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              const Solution<2> &solution = step.solution();
+              if (step.load.number == 1)
+                past = past_slip(solution.contact_space, solution.displacement_space,
+                                 solution.tables, solution.u);
+            });
+    const Scene<2> finer = pushed_and_back(with(row.entries, fine));
+    const Scene<2> first = load_step(finer, 1, {}), second = load_step(finer, 2, data_scale(first));
+    AdaptiveSolver<2> before(first);
+    before.run([](const StepReport<2> &) {});
+    AdaptiveSolver<2>(second, before, past)
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              std::ofstream out(file);
+              write_solution(out, step.field, step.energies.energy);
+            });
+    Scene<2> compared = second;
+    compared.reference_solution = file;
+    const TrueError<2> error(compared);
+    unsigned int n_bounds = 0;
+    LoadHistory<2>(pushed_and_back(with(row.entries, coarse)))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              ASSERT_TRUE(step.bound) << step.no_bound;
+              if (step.load.number == 1)
+              {
+                EXPECT_NE(step.bound->kind, BoundKind::history);
+                return;
+              }
+              ++n_bounds;
+              const double distance = error.measure(step.field, step.contact).energy;
+              EXPECT_EQ(step.bound->kind, BoundKind::history) << step.bound->why;
+              EXPECT_TRUE(std::isnan(step.bound->energy_below));
+              EXPECT_GT(step.bound->total, distance);
+              EXPECT_LT(step.bound->total, row.most * distance);
+            });
+    EXPECT_GT(n_bounds, 0U);
+    std::filesystem::remove(file);
+  }
+}
 } // namespace

@@ -93,6 +93,15 @@ template <int dim>
 EdgePolynomial edge_trace(const ContactFace<dim> &face, const dealii::Tensor<1, dim> &direction,
                           const DisplacementSpace<dim> &space, const ShapeTables<dim> &tables,
                           const dealii::Vector<double> &v);
+
+/** What friction counts of v: v_t less the past slip of the face, a polynomial of its degree. */
+template <int dim>
+EdgePolynomial slip_trace(const ContactFace<dim> &face, const DisplacementSpace<dim> &space,
+                          const ShapeTables<dim> &tables, const dealii::Vector<double> &v);
+
+/** The past slip with a sign, to add, by as many points as the degree of the face asks for; zero: none. */
+template <int dim>
+EdgePolynomial less_past(const ContactFace<dim> &face, const ShapeTables<dim> &tables);
 } // namespace hpvi
 
 #endif

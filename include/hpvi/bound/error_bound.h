@@ -19,10 +19,11 @@ enum class BoundKind
   energy,   ///< the error, guaranteed
   coupling, ///< that of every solution of Coulomb's law, if the coupling is no more than it says
   zones,    ///< the same of a solution that sticks and slips where it says
-  estimate  ///< nothing: Tresca's bound for the same stress
+  history, ///< that of every solution whose slip counts from the computed past, with a coupling under Coulomb's law
+  estimate ///< nothing: Tresca's bound for the same stress
 };
 
-/** As in `bound_kind`: "energy", "coupling", "zones", "estimate". */
+/** As in `bound_kind`: "energy", "coupling", "zones", "history", "estimate". */
 std::string text(BoundKind kind);
 
 class CoulombBounds;
@@ -49,7 +50,7 @@ class CoulombBounds;
 struct ErrorBound
 {
   BoundKind kind = BoundKind::energy;
-  double coupling = std::numeric_limits<double>::quiet_NaN(); ///< theta, of kinds but energy [-]
+  double coupling = std::numeric_limits<double>::quiet_NaN(); ///< theta under Coulomb's law [-]
   std::string zones; ///< of BoundKind::zones: what is assumed of the solution, in words
   std::string why;   ///< of BoundKind::estimate: why there is no bound
 
@@ -95,6 +96,12 @@ struct ErrorBound
 
   std::string flaw; ///< why nothing of this is guaranteed, or empty
 };
+
+/**
+ * Friction that counts slip from a computed past makes what is known of the error a statement about this past, without an interval of the
+ * energy; where zones are assumed, too, an estimate.
+ */
+void count_from_past(ErrorBound &bound);
 
 /** None: a problem that it needs is not solved, for the reason @p what. */
 ErrorBound no_solution_for_bound(const std::string &what);

@@ -30,7 +30,7 @@ public:
          const Degrees &degrees, std::shared_ptr<const ShapeTables<dim>> tables,
          std::shared_ptr<const LoadRules<dim>> loads = nullptr, PastSlip<dim> past = {});
 
-  /** Why no ErrorBound is guaranteed: hpvi::no_error_bound(), slip that is counted from a past, meshes of bodies that do not match. */
+  /** Why no ErrorBound is guaranteed: hpvi::no_error_bound(), slip that is counted from a past where tractions are given or bodies touch. */
   std::string no_error_bound(const Scene<dim> &scene) const;
 
   /** The bound asks for meshes that match where bodies touch: adds what it takes for those that do to go on so. */

@@ -8,6 +8,8 @@
 #include <hpvi/space/newton_matrix.h>
 
 #include <array>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +55,7 @@ protected: // tests look at the stages
   face_dofs(const ContactDofFace<3> &face) const;
   BoxModes trace_of(const DistributedVector &of_vector,
                     const std::vector<dealii::types::global_dof_index> &dofs) const;
+  BoxModes slip_trace(const std::vector<dealii::types::global_dof_index> &dofs) const;
   std::vector<unsigned int> coarse_first() const;
   std::vector<bool> held() const;
   BoxModes violation(const ContactDofFace<3> &face, unsigned int component) const;
@@ -70,9 +73,14 @@ protected: // tests look at the stages
   bool couples(const ContactDofFace<3> &face) const;
   void join_directions();
   std::vector<ContactVector<3>> couplings() const;
+  std::set<dealii::types::global_dof_index> without_lift() const;
   std::string unbounded() const;
   std::vector<double> against(unsigned int face, const std::vector<double> &points) const;
-  std::vector<BoxModes> bumps(DistributedVector &X) const;
+  bool is_supported(dealii::types::global_dof_index dof) const;
+  std::optional<dealii::Point<3>> jump_of_coefficient() const;
+  std::optional<std::vector<BoxModes>> bumps(DistributedVector &X) const;
+  std::vector<double> heights_of(const std::vector<std::vector<double>> &needed,
+                                 unsigned int n_points) const;
   double energy_norm(const DistributedVector &of_vector) const;
   double coulomb_gap(const std::vector<BoxModes> &bumps) const;
   void set_coulomb(ErrorBound &result, double A, double b);

@@ -500,7 +500,7 @@ def error_columns(result):
     for column, (words, colour, style) in ERRORS.items():
         values = table.get(column)
         if column == "error_bound_relative" and not is_energy:
-            words = "bound, if the coupling is as estimated"
+            words = "bound, for the computed history" if "history" in kinds and "coupling" not in kinds else "bound, if the coupling is as estimated"
         if values is not None and np.isfinite(np.asarray(values, float)).any():
             found.append((words, colour, style, np.asarray(values, float)))
     return found

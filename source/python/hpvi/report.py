@@ -166,7 +166,7 @@ class Teller:
 
     def word(self):
         kind = (self.summary.get("error_bound") or {}).get("kind")
-        return {"energy": "guaranteed", "coupling": "bounded, if the coupling is as estimated", "zones": "if the zones are as assumed"}.get(kind, "guaranteed")
+        return {"energy": "guaranteed", "coupling": "bounded, if the coupling is as estimated", "zones": "if the zones are as assumed", "history": "bounded for the computed history"}.get(kind, "guaranteed")
 
     def sure(self, half):
         return f" ({self.word()})" if half is not None and math.isfinite(half) else ""

@@ -61,60 +61,71 @@ class Face:
         n = round(len(x) ** 0.5)
         self.x, self.boundary, self.given = x.reshape(n, n, 3), boundary, face
         self.normal = np.cross(self.x[0, -1] - self.x[0, 0], self.x[-1, 0] - self.x[0, 0])
-        self.normal /= np.linalg.norm(self.normal)
+        self.normal /= max(np.linalg.norm(self.normal), 1e-300)
         middle = n // 2
         self.middle = self.x[middle, middle] if n % 2 else self.x.mean(axis=(0, 1))
         self.kind, self.colour = tint(boundary, face)
 
-    def quads(self):
-        """Their corners (m, 4, 3)."""
+    def quads(self, view):
+        """Where some of the small quadrilaterals of the face look away, those that do not (m, 4, 2); else None."""
         x = self.x
-        return np.stack([x[:-1, :-1], x[:-1, 1:], x[1:, 1:], x[1:, :-1]], axis=2).reshape(-1, 4, 3)
+        corners = np.stack([x[:-1, :-1], x[:-1, 1:], x[1:, 1:], x[1:, :-1]], axis=2).reshape(-1, 4, 3)
+        looks = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]) @ view.viewer > 0
+        return None if looks.all() else view(corners[looks])
 
     def outline(self):
         x = self.x
         return np.concatenate([x[0], x[1:, -1], x[-1, -2::-1], x[-2:0:-1, 0]])
 
 
-def draw_faces(sheet, view, faces):
-    """Those that look to the viewer, farthest first. Returns them."""
-    seen = sorted((face for face in faces if face.normal @ view.viewer > 1e-6), key=lambda face: face.middle @ view.viewer)
-    polygons, colours, lines = [], [], []
-    for face in seen:
-        quads = view(face.quads())
-        polygons += [*quads, view(face.outline())]
-        colours += [face.colour] * len(quads) + ["none"]
-        lines += [face.colour] * len(quads) + ["#8a97a6"]
-    sheet.axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=lines, linewidths=0.5 if len(seen) < 500 else 0.2, gid="faces"))
-    sheet.marks += [view(face.outline()) for face in seen]
-    sheet.marks += [view(face.x.reshape(-1, 3)) for face in seen]
-    return seen
+def draw_faces(sheet, drawn):
+    """Farthest first. Of a face that is bent to the far side at its rim the parts that are seen."""
+    polygons, colours, edges = [], [], []
+    for face, outline in zip(drawn.faces, drawn.outlines):
+        quads = face.quads(drawn.view)
+        polygons += [outline] if quads is None else [*quads, outline]
+        colours += [face.colour] if quads is None else [face.colour] * len(quads) + ["none"]
+        edges += ["#8a97a6"] if quads is None else [face.colour] * len(quads) + ["#8a97a6"]
+    sheet.axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=edges, linewidths=0.5 if len(drawn.faces) < 500 else 0.2, gid="faces"))
+    step = 1 + len(drawn.faces) // 2000  # words keep off the rest, too
+    sheet.marks += drawn.outlines[::step] + [drawn.view(face.x.reshape(-1, 3)) for face in drawn.faces[::step]]
 
 
-def is_covered(place, view, face, seen):
-    """Does a face nearer to the viewer lie before the middle of this one?"""
-    for other in seen:
-        if other is face or other.middle @ view.viewer <= face.middle @ view.viewer:
-            continue
-        polygon = view(other.outline())
-        way = np.roll(polygon, -1, axis=0) - polygon
-        turns = way[:, 0] * (place[1] - polygon[:, 1]) - way[:, 1] * (place[0] - polygon[:, 0])
-        if (turns > 0).all() or (turns < 0).all():
-            return True
-    return False
+class Drawn:
+    """Faces that look to one viewer, with their outlines on the paper."""
+
+    def __init__(self, view, faces):
+        self.view = view
+        self.faces = sorted((face for face in faces if face.normal @ view.viewer > 1e-6), key=lambda face: face.middle @ view.viewer)
+        self.outlines = [view(face.outline()) for face in self.faces]
+        self.depths = np.array([face.middle @ view.viewer for face in self.faces])
+        self.low, self.high = (np.array([end(outline, axis=0) for outline in self.outlines]).reshape(-1, 2) for end in (np.min, np.max))
+
+    def covers(self, face):
+        """Does another one lie before the middle of this face?"""
+        place = self.view(face.middle)
+        near = (self.depths > face.middle @ self.view.viewer) & (self.low < place).all(axis=1) & (self.high > place).all(axis=1)
+        for k in np.flatnonzero(near):
+            way = np.roll(self.outlines[k], -1, axis=0) - self.outlines[k]
+            turns = way[:, 0] * (place[1] - self.outlines[k][:, 1]) - way[:, 1] * (place[0] - self.outlines[k][:, 0])
+            if self.faces[k] is not face and ((turns > 0).all() or (turns < 0).all()):
+                return True
+        return False
 
 
-def best_place(boundary, drawn):
+def best_place(boundary, drawn, faces):
     """The view and the face of a boundary that are best seen, as large and as square to the viewer as there are, and whether nothing hides it."""
     best = None
-    for view, seen in drawn:
-        own = sorted((face for face in seen if face.boundary is boundary), key=lambda face: -(face.normal @ view.viewer))
-        visible = [face for face in own[:60] if not is_covered(view(face.middle), view, face, seen)]
-        size = bool(visible), sum(face.normal @ view.viewer for face in own)
+    for one in drawn:
+        own = sorted((face for face in one.faces if face.boundary is boundary), key=lambda face: -(face.normal @ one.view.viewer))
+        visible = [face for face in own[:60] if not one.covers(face)]
+        size = bool(visible), sum(face.normal @ one.view.viewer for face in own)
         if own and (best is None or size > best[0]):
             places = visible or own
-            middle = np.mean([view(face.middle) for face in places], axis=0)
-            best = size, view, min(places, key=lambda face: np.hypot(*(view(face.middle) - middle)))
+            middle = np.mean([one.view(face.middle) for face in places], axis=0)
+            best = size, one.view, min(places, key=lambda face: np.hypot(*(one.view(face.middle) - middle)))
+    if best is None:  # seen edge on from both sides
+        return drawn[0].view, next(face for face in faces if face.boundary is boundary), False
     (is_seen, _), view, face = best
     return view, face, is_seen
 
@@ -131,13 +142,13 @@ def is_free(boundary):
     return not (boundary["supports"] or boundary["contacts"] or boundary["loads"] or boundary["pair"])
 
 
-def write_words(sheet, drawn):
+def write_words(sheet, drawn, faces):
     """Of each boundary that is not free, with a line to it; a broken one where something stands before it."""
     for boundary in sheet.scene["boundaries"]:
         words = words_of(sheet, boundary)
         if not boundary["name"] or not words or is_free(boundary):
             continue
-        view, face, is_seen = best_place(boundary, drawn)
+        view, face, is_seen = best_place(boundary, drawn, faces)
         centre, at = view(sheet.body).mean(axis=0), view(face.middle)
         outward = at - centre if np.hypot(*(at - centre)) > 3 * sheet.u else np.array([0.3, 1.])
         outward = outward / np.hypot(*outward)
@@ -198,17 +209,19 @@ def draw_space(sheet):
     scene = sheet.scene
     faces = [Face(boundary, face) for boundary in scene["boundaries"] for face in boundary["faces"]]
     sheet.body = all_points(scene)
-    drawn = [(view, draw_faces(sheet, view, faces)) for view in views(scene)]
+    drawn = [Drawn(view, faces) for view in views(scene)]
+    for one in drawn:
+        draw_faces(sheet, one)
     for name, colour in (("traction", LOAD), ("displacement", SUPPORT)):
         largest = max((np.linalg.norm(face.given[name]) for face in faces if face.given[name] is not None), default=0)
-        for view, seen in drawn:
-            draw_vectors(sheet, view, seen, name, colour, largest)
-    for view, _ in drawn:
+        for one in drawn:
+            draw_vectors(sheet, one.view, one.faces, name, colour, largest)
+    for view in (one.view for one in drawn):
         x = view(sheet.body)
         sheet.note((x[:, 0].mean(), x[:, 1].min()), np.array([0., -1.]), [(view.words, GREY, False)])
         draw_axes(sheet, view)
-    draw_inside(sheet, drawn[1][0])
-    write_words(sheet, drawn)
+    draw_inside(sheet, drawn[1].view)
+    write_words(sheet, drawn, faces)
     low, high = sheet.body.min(axis=0), sheet.body.max(axis=0)
     length = pretty(scene["units"]["length"])
     sizes = ", ".join(f"{name}: {digits(a, 4)} to {digits(b, 4)}" for name, a, b in zip("xyz", low, high)) + (f" {length}" if length else "")

@@ -56,6 +56,8 @@ def error(kind, size, coupling=None, zones=None):
         return f"at most {size} for every solution of Coulomb's law, bounded {known}"
     if kind == "zones":
         return f"at most {size} if {zones}, and {known}"
+    if kind == "history":
+        return f"at most {size} for the slip that load steps before have computed, bounded" + (f" {known}" if coupling is not None and math.isfinite(coupling) else "")
     if kind == "estimate":
         return f"about {size}, estimated"
     return f"at most {size}, guaranteed"
