@@ -3,6 +3,8 @@
 #define hpvi_tests_texts_h
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,14 @@ std::string failure_of(const Action &action)
     return failure.what();
   }
   return {};
+}
+
+/** All digits of a number, for entries and expressions. */
+inline std::string in_digits(const double value)
+{
+  std::ostringstream out;
+  out << std::setprecision(17) << value;
+  return out.str();
 }
 
 inline bool says(const std::string &text, const std::string &words)

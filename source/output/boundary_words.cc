@@ -129,15 +129,18 @@ std::vector<Point<dim>> points_on(const Triangulation<dim> &mesh, const types::b
   return points;
 }
 
-/** As in "rigid plate, uy = -0.01 mm, Fx = 5 N, rotation free". */
+/** As in "rigid plate, uy = -0.01 mm, Fx = 5 N, rotation free"; in space "rotation x". */
 template <int dim>
 void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
                std::vector<std::string> &phrases)
 {
   const auto names = [](const unsigned int m) -> std::array<std::string, 2>
   {
-    if (m == dim)
+    if (m >= dim && dim == 2)
       return {{"rotation", "moment"}};
+    if (m >= dim)
+      return {{std::string("rotation ") + coordinates[m - dim],
+               std::string("M") + coordinates[m - dim]}};
     return {{std::string("u") + coordinates[m], std::string("F") + coordinates[m]}};
   };
   phrases.push_back("rigid plate");
@@ -148,7 +151,7 @@ void add_plate(const Scene<dim> &scene, const RigidPlate<dim> &plate,
     else if (plate.force[m] != 0)
       phrases.push_back(names(m)[1] + " = " +
                         with_unit(scene.thickness * plate.force[m],
-                                  unit_of_load(scene.stress_unit, scene.length_unit, m == dim)));
+                                  unit_of_load(scene.stress_unit, scene.length_unit, m >= dim)));
     else
       phrases.push_back(names(m)[0] + " free");
 }

@@ -82,6 +82,16 @@ std::string moment_text(const Tensor<1, 3> &moment)
   return point_text(moment);
 }
 
+std::string rotation_text(const double rotation)
+{
+  return text(rotation + 0., 6); // never -0
+}
+
+std::string rotation_text(const Tensor<1, 3> &rotation)
+{
+  return to_string(Point<3>(rotation));
+}
+
 /** As in "moment 3 about (0.5 0.5)". */
 template <int dim>
 std::string moment_text(const BoundaryForce<dim> &force, const Equilibrium<dim> &equilibrium)
@@ -309,8 +319,7 @@ std::string plate_in_words(const Scene<dim> &scene, const std::string &boundary,
     {
       const std::string unit = unit_name(scene.length_unit);
       return ", moves by " + to_string(Point<dim>(plate.displacement)) +
-             (unit.empty() ? "" : " " + unit) + " and turns by " +
-             text(plate.rotation + 0., 6) + // never -0
+             (unit.empty() ? "" : " " + unit) + " and turns by " + rotation_text(plate.rotation) +
              " rad at " + to_string(plate.centre);
     }
   return {};

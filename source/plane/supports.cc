@@ -48,19 +48,6 @@ std::vector<PointCondition<dim>> independent(const std::vector<PointCondition<di
   }
   return basis;
 }
-
-/** A plate exerts any force, and holds what its motion leaves to hold (Plate). */
-template <int dim>
-void add_plate(const BoundaryCondition<dim> &boundary, SupportedNode<dim> &node)
-{
-  for (unsigned int c = 0; c < dim; ++c)
-  {
-    Tensor<1, dim> direction;
-    direction[c] = 1.;
-    node.add({direction, 0., boundary.id});
-  }
-  node.is_on_plate = true;
-}
 } // namespace
 
 template <int dim>
@@ -73,6 +60,26 @@ void SupportedNode<dim>::add(const PointCondition<dim> &condition)
                             (known.direction - condition.direction).norm() < repeated_direction;
                    }))
     conditions.push_back(condition);
+}
+
+template <int dim>
+void SupportedNode<dim>::add_plate(const types::boundary_id boundary)
+{
+  for (unsigned int c = 0; c < dim; ++c)
+  {
+    Tensor<1, dim> direction;
+    direction[c] = 1.;
+    add({direction, 0., boundary});
+  }
+  is_on_plate = true;
+}
+
+template <int dim>
+bool SupportedNode<dim>::is_on(const types::boundary_id boundary) const
+{
+  return std::any_of(conditions.begin(), conditions.end(),
+                     [&](const PointCondition<dim> &condition)
+                     { return condition.boundary == boundary; });
 }
 
 // @sect3{Collecting them}
@@ -112,7 +119,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
                    boundary, map.curve_normal(f, reference), boundary.holds_normal(), node.x))
             node.add(condition);
           if (boundary.plate)
-            add_plate(boundary, node);
+            node.add_plate(boundary.id);
         }
       }
   std::vector<SupportedNode<dim>> result;

@@ -322,9 +322,8 @@ void read_boundary(const Parameters &parameters, const std::optional<double> t,
   read_loads<dim>(expressions, section, side, exact_traction, boundary);
   boundary.symmetry = parameters.boolean(section, "Symmetry");
   read_spring(parameters, expressions, section, points, boundary);
-  if constexpr (dim == 2)
-    read_plate(parameters, expressions, section, points, scene.thickness, scene.is_axisymmetric(),
-               boundary);
+  read_plate(parameters, expressions, section, points, scene.thickness, scene.is_axisymmetric(),
+             boundary);
   boundary.contact = read_choice<Contact>(parameters, section, "Contact", contact_names);
   read_direction(parameters, expressions, section, boundary);
   boundary.gap = expressions.template read<1>(section, "Gap", "0", points)[0];

@@ -154,9 +154,6 @@ std::vector<Alias> hints_in_plane()
        "\"Material/Poisson's ratios\" = nu12, nu13, nu23, \"Material/Shear moduli\" = G12 and "
        "\"Material/Angle\""},
       {{"axes"}, "set \"Material/Angle\" = degrees of axis 1 against x"},
-      {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force"},
-       "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
-       "\"Boundary top/Force\" = Fx; Fy"},
       {{"normal", "contact normal", "normal direction", "direction"},
        "contact is along the normal of the body, or along \"Boundary bottom/Contact direction\" = "
        "dx; dy"},
@@ -175,7 +172,6 @@ std::vector<Alias> hints_in_space()
           {{"angle"}, "set \"Material/Axes\" = x1, y1, z1; x2, y2, z2, vectors along axes 1 and 2"},
           {{"plane", "plane strain", "plane stress"}, "only a body in the plane has it; remove it"},
           {{"thickness"}, "only a body in the plane has it; remove it"},
-          {{"rigid", "rotation", "moment"}, "only a body in the plane has rigid plates; remove it"},
           {{"normal", "contact normal", "normal direction", "direction"},
            "contact is along the normal of the body, or along \"Boundary bottom/Contact "
            "direction\" = dx; dy"},
@@ -200,7 +196,10 @@ std::vector<Alias> scene_aliases(const int dim, const std::vector<std::string> &
 {
   std::vector<Alias> aliases{
       {{"boundary", "boundaries", "boundary condition", "boundary conditions", "bc"},
-       "conditions stand in the subsections Boundary " + listed(boundaries, "and")}};
+       "conditions stand in the subsections Boundary " + listed(boundaries, "and")},
+      {{"rigid plate", "rigid body", "platen", "rigid punch", "resultant", "nodal force"},
+       "a boundary that a resultant presses as a whole has \"Boundary top/Rigid\" = true and "
+       "\"Boundary top/Force\" = Fx; Fy"}};
   for (const std::vector<Alias> &some :
        {hints_about_curves_inside(interfaces), hints_about_pairs(),
         dim == 2 ? hints_in_plane() : hints_in_space(), hints_about_body(),

@@ -31,6 +31,14 @@ std::string in_space(std::string text)
       {"ux; uy", "ux; uy; uz"},
       {"Gx; Gy", "Gx; Gy; Gz"},
       {"gx; gy", "gx; gy; gz"},
+      {", per thickness stress length^2", ""},
+      {", per thickness stress length", ""},
+      {"Small rotation of a rigid plate about that point, counterclockwise [radians]; empty: free",
+       "Small rotation rx; ry; rz of a rigid plate about that point [radians], `free` by "
+       "component; "
+       "empty: free"},
+      {"Moment on a rigid plate about that point, counterclockwise [stress length^3]",
+       "Moment Mx; My; Mz on a rigid plate about that point [stress length^3], `free` as in Force"},
       {"u_t t", "u_t"},
       {"u_t, T_t those along (-dy, dx), per", "u_t, T_t what vectors have beside it, per"},
       {"dx; dy", "dx; dy; dz"},
@@ -286,8 +294,7 @@ void add_program_entries(std::vector<Entry> &entries)
 /** What only a plane scene has. */
 bool is_of_the_plane(const Entry &entry)
 {
-  return entry.name == "Shear" || entry.name == "Rigid" || entry.name == "Force" ||
-         entry.name == "Rotation" || entry.name == "Moment" ||
+  return entry.name == "Shear" ||
          (entry.section == "Solver" &&
           (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
            entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||
@@ -314,6 +321,10 @@ void take_to_space(std::vector<Entry> &entries)
   {
     entry.wanted = in_space(entry.wanted);
     entry.documentation = in_space(entry.documentation);
+    if (entry.name == "Rotation")
+      entry.wanted = "rx; ry; rz or nothing";
+    else if (entry.name == "Moment")
+      entry.wanted = "Mx; My; Mz or nothing";
   }
   change("Dimension", "3", Patterns::Integer(3, 3), "2 or 3");
   change("Solver/Normal contact", "automatic",

@@ -192,12 +192,11 @@ Equilibrium<dim> equilibrium(const Scene<dim> &scene, const NodalForces<dim> &fo
   collectively(communicator, [&]() { result = balance_of(sums, scene); });
   result.parts_of_loads = parts_of_loads<dim>(scene, forces.tractions, result.loads, communicator);
   result.plates = forces.plates;
-  if constexpr (dim == 2)
-    for (PlateState<dim> &plate : result.plates)
-    {
-      const BoundaryForce<dim> &reaction = sums.reactions[plate.boundary];
-      plate.moment = reaction.moment - moment_of(plate.centre - sums.centre, reaction.force);
-    }
+  for (PlateState<dim> &plate : result.plates)
+  {
+    const BoundaryForce<dim> &reaction = sums.reactions[plate.boundary];
+    plate.moment = reaction.moment - moment_of(plate.centre - sums.centre, reaction.force);
+  }
   if constexpr (dim == 2)
     if (scene.is_axisymmetric())
     {

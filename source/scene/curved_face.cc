@@ -115,6 +115,21 @@ double CurvedFace::area() const
   return result;
 }
 
+Point<3> CurvedFace::mean_point() const
+{
+  const QGauss<2> rule(8);
+  double size = 0;
+  Tensor<1, 3> moment;
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const OnFace here(nodes(), rule.point(q));
+    const double ds = rule.weight(q) * here.area_vector().norm();
+    size += ds;
+    moment += ds * here.from_first;
+  }
+  return nodes()[0] + moment / size;
+}
+
 bool CurvedFace::is_plane() const
 {
   const Tensor<1, 3> n = normal(Point<2>(0.5, 0.5));

@@ -118,14 +118,20 @@ struct Rows
 };
 
 /** What a rigid plate does not leave free. */
-void add_plate(const Scene<2> &scene, const BoundaryCondition<2> &boundary, const Point<2> &centre,
-               const double length, std::vector<RigidMotion<2>> &held)
+template <int dim>
+void add_plate(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
+               const Point<dim> &centre, const double length, std::vector<RigidMotion<dim>> &held)
 {
-  const PlateMotion plate(scene, boundary);
-  for (unsigned int m = 0; m < PlateMotion::n_motions; ++m)
-    if (!boundary.plate->is_free(m))
-      held.push_back(m < 2 ? row_of(plate.motion(m, centre), (plate.centre() - centre) / length)
-                           : RigidMotion<2>{{0, 0, 1}});
+  const PlateMotion<dim> plate(scene, boundary);
+  for (unsigned int m = 0; m < plate.n_motions; ++m)
+    if (!boundary.plate->is_free(m) && m < dim)
+      held.push_back(row_of(plate.motion(m, centre), (plate.centre() - centre) / length));
+    else if (!boundary.plate->is_free(m))
+    {
+      held.emplace_back();
+      held.back().fill(0.);
+      held.back()[m] = 1;
+    }
 }
 
 /** Springs hold those pieces of a side on which they are not zero all along. */
@@ -255,9 +261,8 @@ Rows<dim> rows_of(const Scene<dim> &scene, const unsigned int body, const Point<
     if (!is_other(boundary))
     {
       add_springs(boundary, sides[boundary.id], centre, length, rows.held);
-      if constexpr (dim == 2)
-        if (boundary.plate)
-          add_plate(scene, boundary, centre, length, rows.held);
+      if (boundary.plate)
+        add_plate(scene, boundary, centre, length, rows.held);
     }
   if constexpr (dim == 2)
     if (scene.is_axisymmetric()) // strains around the axis: the way along it alone is rigid

@@ -13,63 +13,95 @@ using namespace dealii;
 
 namespace
 {
-constexpr unsigned int rotation = 2;
-
-/** e_z x v */
-Tensor<1, 2> turned(const Tensor<1, 2> &v)
+/** `int x ds` and `int ds` over a boundary. */
+template <int dim>
+struct SizeAndMoment
 {
-  return Tensor<1, 2>({-v[1], v[0]});
+  Tensor<1, dim> moment;
+  double size = 0;
+
+  void add(const double own, const Tensor<1, dim> &x)
+  {
+    moment += own * x;
+    size += own;
+  }
+};
+
+SizeAndMoment<2> integrals(const Side<2> &side)
+{
+  SizeAndMoment<2> result;
+  const QGauss<1> gauss(16);
+  for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    if (const CurvePiece curve = side.curve(k))
+      for (unsigned int q = 0; q < gauss.size(); ++q)
+      {
+        const double s = gauss.point(q)[0];
+        result.add(gauss.weight(q) * curve.derivative(s).norm(), curve.point(s));
+      }
+    else
+      result.add(side.pieces[k][0].distance(side.pieces[k][1]), centre_of<2>(side.pieces[k]));
+  return result;
+}
+
+/** A plane piece is two triangles. */
+SizeAndMoment<3> integrals(const Side<3> &side)
+{
+  SizeAndMoment<3> result;
+  for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    if (const CurvedFace curve = side.curve(k))
+      result.add(curve.area(), curve.mean_point());
+    else
+      for (const unsigned int last : {0, 3})
+      {
+        const Point<3> &a = side.pieces[k][1], &b = side.pieces[k][2], &c = side.pieces[k][last];
+        result.add(cross_product_3d(b - a, c - a).norm() / 2, a + ((b - a) + (c - a)) / 3.);
+      }
+  return result;
 }
 } // namespace
 
-PlateMotion::PlateMotion(const Scene<2> &scene, const BoundaryCondition<2> &boundary)
+template <int dim>
+PlateMotion<dim>::PlateMotion(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary)
     : plate(*boundary.plate)
 {
-  const Side<2> side = sides_of(scene)[boundary.id];
-  double length = 0;
-  const QGauss<1> gauss(16);
-  for (unsigned int k = 0; k < side.pieces.size(); ++k)
-    if (!side.curves.empty() && side.curves[k])
-      for (unsigned int q = 0; q < gauss.size(); ++q)
-      {
-        const double s = gauss.point(q)[0],
-                     own = gauss.weight(q) * side.curves[k].derivative(s).norm();
-        mean += own * side.curves[k].point(s);
-        length += own;
-      }
-    else
-    {
-      const double own = side.pieces[k][0].distance(side.pieces[k][1]);
-      mean += own * centre_of<2>(side.pieces[k]);
-      length += own;
-    }
-  if (length > 0) // parts have left something of the side
-    mean /= length;
-  for (const Side<2>::Piece &piece : side.pieces)
-    for (const Point<2> &end : piece)
+  const Side<dim> side = sides_of(scene)[boundary.id];
+  const SizeAndMoment<dim> all = integrals(side);
+  if (all.size > 0) // parts have left something of the side
+    mean = Point<dim>(all.moment / all.size);
+  for (const auto &piece : side.pieces)
+    for (const Point<dim> &end : piece)
       radius = std::max(radius, mean.distance(end));
 }
 
-const Point<2> &PlateMotion::centre() const
+template <int dim>
+const Point<dim> &PlateMotion<dim>::centre() const
 {
   return mean;
 }
 
-double PlateMotion::reach() const
+template <int dim>
+double PlateMotion<dim>::reach() const
 {
   return radius;
 }
 
-Tensor<1, 2> PlateMotion::motion(const unsigned int m, const Point<2> &x) const
+template <int dim>
+Tensor<1, dim> PlateMotion<dim>::motion(const unsigned int m, const Point<dim> &x) const
 {
-  if (m == rotation)
-    return turned(x - mean);
-  Tensor<1, 2> unit;
-  unit[m] = 1.;
-  return unit;
+  Tensor<1, dim> result;
+  if (m < dim)
+    result[m] = 1.;
+  else
+  {
+    const unsigned int a = dim == 2 ? 0 : (m - dim + 1) % dim, b = (a + 1) % dim;
+    result[a] = -(x - mean)[b];
+    result[b] = (x - mean)[a];
+  }
+  return result;
 }
 
-std::vector<unsigned int> PlateMotion::free_motions() const
+template <int dim>
+std::vector<unsigned int> PlateMotion<dim>::free_motions() const
 {
   std::vector<unsigned int> result;
   for (unsigned int m = 0; m < n_motions; ++m)
@@ -78,30 +110,25 @@ std::vector<unsigned int> PlateMotion::free_motions() const
   return result;
 }
 
-Tensor<1, 2> PlateMotion::prescribed(const Point<2> &x) const
+template <int dim>
+Tensor<1, dim> PlateMotion<dim>::prescribed(const Point<dim> &x) const
 {
-  Tensor<1, 2> u;
+  Tensor<1, dim> u;
   for (unsigned int m = 0; m < n_motions; ++m)
     u += plate.displacement[m].value_or(0.) * motion(m, x);
   return u;
 }
 
-std::optional<double> PlateMotion::held(const Tensor<1, 2> &direction, const Point<2> &x) const
+template <int dim>
+std::optional<double> PlateMotion<dim>::held(const Tensor<1, dim> &direction,
+                                             const Point<dim> &x) const
 {
   for (const unsigned int m : free_motions())
-    if (std::abs(direction * motion(m, x)) > 1e-9 * (m == rotation ? radius : 1.))
+    if (std::abs(direction * motion(m, x)) > 1e-9 * (m < dim ? 1. : radius))
       return std::nullopt;
   return direction * prescribed(x);
 }
 
-/** The rotation by what both ends do across the line between them, U at their middle. */
-std::array<double, PlateMotion::n_motions>
-PlateMotion::amounts(const std::array<Point<2>, 2> &ends,
-                     const std::array<Tensor<1, 2>, 2> &u) const
-{
-  const Tensor<1, 2> way = ends[1] - ends[0];
-  const double angle = (u[1] - u[0]) * turned(way) / way.norm_square();
-  const Tensor<1, 2> U = (u[0] + u[1]) / 2. - angle * turned((ends[0] - mean) + way / 2.);
-  return {{U[0], U[1], angle}};
-}
+template class PlateMotion<2>;
+template class PlateMotion<3>;
 } // namespace hpvi

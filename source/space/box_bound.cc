@@ -269,6 +269,8 @@ std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u
     return "contact alone holds the body";
   if (scene.has_springs())
     return "springs hold the body";
+  if (scene.has_plates())
+    return "a side is glued to a rigid plate";
   if (scene.has_initial_strain())
     return "a material has an initial strain";
   for (const BoundaryCondition<3> &boundary : scene.boundaries)

@@ -153,6 +153,7 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene, const Triangulation<dim> &mes
 {
   centre = scene.geometry.centre();
   thickness = scene.thickness;
+  has_plates = scene.has_plates();
   size = scene.geometry.diameter();
   double largest = 0;
   const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
@@ -203,7 +204,7 @@ std::string LoadCheck<dim>::in_words() const
 {
   return "loads: force " + in_brackets(thickness * clean(sum.force, absolute)) + ", moment " +
          in_brackets(thickness * clean(sum.moment, absolute * size)) + " about " +
-         in_brackets<dim>(centre) + "\n";
+         in_brackets<dim>(centre) + (has_plates ? ", without those on rigid plates" : "") + "\n";
 }
 
 template <int dim>

@@ -61,33 +61,35 @@ double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const D
   const StrainLoads<dim> strains(scene, space, n_points);
   const bool has_inner_loads = scene.has_body_force() || scene.has_initial_strain();
   return sum_collectively(
-      space.communicator(),
-      [&]()
-      {
-        double sum = 0;
-        for (const auto &cell : space.dof_handler.active_cell_iterators())
-        {
-          if (!cell->is_locally_owned() || !(has_inner_loads || cell->at_boundary()))
-            continue;
-          const CellField<dim> field = space.field(cell, u);
-          if (scene.has_initial_strain())
-            sum += product<dim>(strains.load(cell), field);
-          const CellMap<dim> map = map_of<dim>(cell);
-          if (scene.has_body_force())
-            sum += work_on<dim>(
-                map, scene.body_force_in(cell), tables[0],
-                [&](const Point<dim> &x) { return std::abs(determinant(map.jacobian(x))); }, field);
-          for (const unsigned int f : cell->face_indices())
-            if (cell->at_boundary(f))
-              if (const BoundaryCondition<dim> &condition =
-                      scene.boundaries[cell->face(f)->boundary_id()];
-                  condition.has_traction())
-                sum += work_on<dim>(
-                    map, condition.traction, tables[1 + f],
-                    [&](const Point<dim> &x) { return map.face_measure(f, x); }, field);
-        }
-        return sum;
-      });
+             space.communicator(),
+             [&]()
+             {
+               double sum = 0;
+               for (const auto &cell : space.dof_handler.active_cell_iterators())
+               {
+                 if (!cell->is_locally_owned() || !(has_inner_loads || cell->at_boundary()))
+                   continue;
+                 const CellField<dim> field = space.field(cell, u);
+                 if (scene.has_initial_strain())
+                   sum += product<dim>(strains.load(cell), field);
+                 const CellMap<dim> map = map_of<dim>(cell);
+                 if (scene.has_body_force())
+                   sum += work_on<dim>(
+                       map, scene.body_force_in(cell), tables[0],
+                       [&](const Point<dim> &x) { return std::abs(determinant(map.jacobian(x))); },
+                       field);
+                 for (const unsigned int f : cell->face_indices())
+                   if (cell->at_boundary(f))
+                     if (const BoundaryCondition<dim> &condition =
+                             scene.boundaries[cell->face(f)->boundary_id()];
+                         condition.has_traction())
+                       sum += work_on<dim>(
+                           map, condition.traction, tables[1 + f],
+                           [&](const Point<dim> &x) { return map.face_measure(f, x); }, field);
+               }
+               return sum;
+             }) +
+         plate_work(scene, space.plates, u);
 }
 
 template double load_work(const Scene<2> &, const PrimalSpace<2> &, const DistributedVector &,

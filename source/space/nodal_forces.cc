@@ -293,6 +293,19 @@ void NodalReactions<dim>::add_supports(NodalForces<dim> &result) const
   }
 }
 
+PlateState<3> state_of(const PlateOnMesh<3> &plate, const DistributedVector &u)
+{
+  const auto q = plate.amounts(u);
+  return {plate.boundary, plate.motion.centre(), Tensor<1, 3>({q[0], q[1], q[2]}),
+          Tensor<1, 3>({q[3], q[4], q[5]})};
+}
+
+PlateState<2> state_of(const PlateOnMesh<2> &plate, const DistributedVector &u)
+{
+  const auto q = plate.amounts(u);
+  return {plate.boundary, plate.motion.centre(), Tensor<1, 2>({q[0], q[1]}), q[2]};
+}
+
 template <int dim>
 NodalForces<dim> NodalReactions<dim>::forces() const
 {
@@ -304,6 +317,8 @@ NodalForces<dim> NodalReactions<dim>::forces() const
       result.loads.push_back({node.component, load, node.x, node.body});
   }
   result.reactions.insert(result.reactions.end(), contact_forces.begin(), contact_forces.end());
+  for (const PlateOnMesh<dim> &plate : space.plates)
+    result.plates.push_back(state_of(plate, u));
   collectively(space.communicator(),
                [&]()
                {

@@ -4,6 +4,7 @@
 #include <hpvi/space/past_state.h>
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 namespace hpvi
@@ -20,28 +21,54 @@ PastState<dim> end_state(const PrimalSpace<dim> &space, const DistributedVector 
   for (unsigned int k = 0; k < space.contact.size(); ++k)
     result.traction.push_back(space.contact[k].bound_by(lambda) * lambda[k]);
   for (const auto &reaction : forces.reactions)
-    if (!reaction.is_of_springs && space.scene.boundaries[reaction.boundary].has_displacement())
+    if (const auto &boundary = space.scene.boundaries[reaction.boundary];
+        !reaction.is_of_springs && (boundary.has_displacement() || boundary.plate))
       result.supports.push_back(reaction);
   return result;
 }
 
 namespace
 {
+/** What the supports of a scene prescribe, none at rest. */
+template <int dim>
+class Prescribed
+{
+public:
+  explicit Prescribed(const Scene<dim> *const scene) : scene(scene)
+  {
+    if (scene)
+      for (const BoundaryCondition<dim> &boundary : scene->boundaries)
+        if (boundary.plate)
+          plates.emplace(boundary.id, PlateMotion<dim>(*scene, boundary));
+  }
+
+  /** Zero for a component that is free. */
+  Tensor<1, dim> at(const unsigned int boundary, const Point<dim> &x) const
+  {
+    Tensor<1, dim> u;
+    if (const auto plate = plates.find(boundary); plate != plates.end())
+      return plate->second.prescribed(x);
+    for (unsigned int c = 0; scene && c < dim; ++c)
+      if (const Expression<dim> &function = scene->boundaries[boundary].displacement[c])
+        u[c] = function->value(x);
+    return u;
+  }
+
+private:
+  const Scene<dim> *const scene;
+  std::map<unsigned int, PlateMotion<dim>> plates;
+};
+
 /** Of the reactions of one state on the increments of prescribed displacements; @p last is null at rest. */
 template <int dim>
 double work_of_supports(const PastState<dim> &state, const Scene<dim> *const last,
                         const Scene<dim> &next)
 {
-  const auto value = [](const Expression<dim> &expression, const Point<dim> &x)
-  { return expression ? expression->value(x) : 0.; };
+  const Prescribed<dim> before(last), after(&next);
   double sum = 0;
   for (const auto &reaction : state.supports)
-    for (unsigned int c = 0; c < dim; ++c)
-    {
-      const unsigned int id = reaction.boundary;
-      const double before = last ? value(last->boundaries[id].displacement[c], reaction.x) : 0.;
-      sum += reaction.force[c] * (value(next.boundaries[id].displacement[c], reaction.x) - before);
-    }
+    sum += reaction.force *
+           (after.at(reaction.boundary, reaction.x) - before.at(reaction.boundary, reaction.x));
   return sum;
 }
 

@@ -43,6 +43,7 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
   number();
   collectively(communicator(),
                [&]() { constrain_supports(scene, dof_handler, tables, relevant, constraints); });
+  plates = constrain_plates(scene, dof_handler, tables, relevant, constraints);
   make_consistent(constraints, owned, relevant, communicator());
   collectively(communicator(), [this]() { find_contact(); });
   find_opposite_faces();

@@ -56,6 +56,22 @@ PrimalSystem<dim>::PrimalSystem(const PrimalSpace<dim> &space)
   DistributedVector owned_part = space.owned_vector();
   owned_part.copy_locally_owned_data_from(f);
   f.swap(owned_part);
+  add_plate_loads();
+}
+
+/** Forces and moments act on the masters, each on the process that has it. */
+template <int dim>
+void PrimalSystem<dim>::add_plate_loads()
+{
+  for (const PlateOnMesh<dim> &plate : space.plates)
+  {
+    const auto &force = space.scene.boundaries[plate.boundary].plate->force;
+    const PlateMasters<dim> &by = plate.masters;
+    for (unsigned int i = 0; i < by.masters.size(); ++i)
+      for (unsigned int k = 0; k < by.motions.size(); ++k)
+        if (space.owned.is_element(by.masters[i].dof))
+          f(by.masters[i].dof) += force[by.motions[k]] * by.share(k, i);
+  }
 }
 
 /** Of a cell of a slave: what is left of its loads under u_0, which prescribed displacements alone make. */
@@ -256,16 +272,17 @@ double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 template <int dim>
 double PrimalSystem<dim>::work(const DistributedVector &u) const
 {
-  return sum_collectively(space.communicator(),
-                          [&]()
-                          {
-                            double sum = 0;
-                            for (const Cell &cell : space.dof_handler.active_cell_iterators())
-                              if (cell->is_locally_owned() &&
-                                  (space.scene.has_body_force() || strains || cell->at_boundary()))
-                                sum += product<dim>(load(cell), space.field(cell, u));
-                            return sum;
-                          });
+  const auto of_cells = [&]()
+  {
+    double sum = 0;
+    for (const Cell &cell : space.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          (space.scene.has_body_force() || strains || cell->at_boundary()))
+        sum += product<dim>(load(cell), space.field(cell, u));
+    return sum;
+  };
+  return sum_collectively(space.communicator(), of_cells) +
+         plate_work(space.scene, space.plates, u);
 }
 
 template <int dim>

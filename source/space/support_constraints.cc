@@ -65,6 +65,8 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
     for (const PointCondition<dim> &condition :
          conditions_at(*support.boundary, support.normal, support.boundary->holds_normal(), node.x))
       node.add(condition);
+    if (support.boundary->plate)
+      node.add_plate(support.boundary->id);
   };
   for (const auto &cell : dof_handler.active_cell_iterators())
     for (const unsigned int face : cell->face_indices())
@@ -72,7 +74,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
       if (cell->is_artificial() || !cell->at_boundary(face))
         continue;
       const BoundaryCondition<dim> &boundary = scene.boundaries[cell->face(face)->boundary_id()];
-      if (!boundary.has_displacement() && !boundary.holds_normal())
+      if (!boundary.has_displacement() && !boundary.holds_normal() && !boundary.plate)
         continue;
       const CellMap<dim> map = map_of<dim>(cell);
       const Support<dim> support{&boundary, normal_of_face(map, face)};

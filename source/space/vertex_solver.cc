@@ -34,9 +34,16 @@ void VertexSolver::number()
 {
   const PrimalSpace<3> &space = level.space;
   dof_handler.distribute_dofs(tables.fe);
-  IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
   constraints.reinit(relevant);
+  constrain_plates(space.scene, dof_handler, tables, relevant, constraints);
+  std::set<Dof> on_plates; // first components
+  collectively(space.communicator(),
+               [&]()
+               {
+                 for (const SupportedNode<3> &node : plate_nodes(space.scene, dof_handler, tables))
+                   on_plates.insert(node.dofs[0]);
+               });
   const FE_Q<3> linear(1), of_level(space.tables.degree);
   const auto &points = of_level.get_unit_support_points();
   for (const Point<3> &x : points)
@@ -61,13 +68,17 @@ void VertexSolver::number()
         {
           const Dof dof = own[tables.numbers[j][c]];
           if (space.constraints.is_constrained(of_mesh[space.tables.numbers[j][c]]) &&
-              !constraints.is_constrained(dof))
+              !constraints.is_constrained(dof) && on_plates.count(own[tables.numbers[j][0]]) == 0)
             copy_constraint(of_mesh, j, c, own);
           if (cell->is_locally_owned())
             of_own_cells.push_back(dof);
         }
     }
   constraints.close();
+  for (const Dof dof : dof_handler.locally_owned_dofs())
+    if (const auto *const line = constraints.get_constraint_entries(dof))
+      for (const auto &entry : *line)
+        of_own_cells.push_back(entry.first); // of a plate, on any process
   std::sort(of_own_cells.begin(),
             of_own_cells.end()); // one by one an IndexSet takes them in quadratic time
   IndexSet needed(dof_handler.n_dofs());
@@ -122,20 +133,19 @@ void VertexSolver::assemble()
 {
   const PrimalSpace<3> &space = level.space;
   const IndexSet &owned = dof_handler.locally_owned_dofs();
-  IndexSet relevant;
-  DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
   {
+    IndexSet rows = relevant;
     for (const ContactFace &face : faces)
       for (const Dof dof : face.vertices)
-        relevant.add_range(dof, dof + 3);
-    DynamicSparsityPattern pattern(relevant);
+        rows.add_range(dof, dof + 3);
+    DynamicSparsityPattern pattern(rows);
     DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints, false);
     for (const ContactFace &face : faces)
       for (const Dof row : face.vertices)
         for (const Dof column : face.vertices)
           for (unsigned int c = 0; c < 9; ++c)
             pattern.add(row + c / 3, column + c % 3);
-    SparsityTools::distribute_sparsity_pattern(pattern, owned, space.communicator(), relevant);
+    SparsityTools::distribute_sparsity_pattern(pattern, owned, space.communicator(), rows);
     A.reinit(owned, owned, pattern, space.communicator());
   }
   const Point<3> centre = space.scene.geometry.centre();
@@ -367,7 +377,11 @@ void VertexSolver::correct(Vector &x, Vector &r) const
       residual.local_element(other) += weight * residual.local_element(one.element);
     residual.local_element(one.element) = 0;
   }
+  if (!level.space.plates.empty()) // masters may be another process's
+    residual.compress(VectorOperation::add);
   amg->vmult(correction, residual);
+  if (!level.space.plates.empty())
+    correction.update_ghost_values();
   for (const Constrained &one : constrained)
   {
     correction.local_element(one.element) = 0;

@@ -126,7 +126,26 @@ invalid "Material/Eigenstrain" '"Material/Initial strain" = e1; e2; e3; e12; e13
 invalid "Material/Thermal expansion = hot" "a number" -- "Material/Thermal expansion=hot"
 invalid "Temperature/Expression = 20" "give Material/Thermal expansion" -- "Temperature/Expression=20"
 invalid "Temperature/Expression = t" "the time of a load history" -- "Material/Thermal expansion=1e-5" "Temperature/Expression=t"
-invalid "Boundary top/Rigid" "only a body in the plane" -- "Boundary top/Rigid=true"
+# --- rigid plates
+plate() {
+  local words
+  words_of "$@"
+  invalid "${words[@]}" -- "Boundary left/Traction=" "Boundary left/Rigid=true" "Boundary bottom/Contact=none" "Boundary bottom/Friction bound=" "${rest[@]}"
+}
+plate "Boundary left/Displacement = 0; z; 0" "a rigid plate has one value" "x, y or z" -- "Boundary left/Displacement=0; z; 0"
+plate "Boundary left/Moment = 1" "1 component(s) instead of 3" -- "Boundary left/Moment=1"
+plate "Boundary left/Rotation = 0; t; 0" "the time of a load history" -- "Boundary left/Rotation=0; t; 0"
+plate "Boundary left/Force = 1; 1; 0" "contradicts Boundary left/Displacement = free; 0; free in y" "write \`free\`" -- "Boundary left/Force=1; 1; 0" "Boundary left/Displacement=free; 0; free"
+plate "Boundary left/Moment = 0; 0; 1" "contradicts Boundary left/Rotation = free; free; 0.1 in z" -- "Boundary left/Moment=0; 0; 1" "Boundary left/Rotation=free; free; 0.1"
+plate "Boundary left/Rigid = true" "contradicts Boundary left/Contact = unilateral" "stands alone" -- "Boundary left/Contact=unilateral"
+plate "Boundary left/Rigid = true" "contradicts Boundary left/Symmetry = true" -- "Boundary left/Symmetry=true"
+plate "Boundary left/Rigid = true" "contradicts Boundary left/Pressure = 1" -- "Boundary left/Pressure=1"
+plate "Boundary left/Rigid = true" "contradicts Boundary left/Spring = 1; 1" -- "Boundary left/Spring=1; 1"
+plate "Boundary left/Rigid = true" "leaves a plate free to move against Boundary front/Symmetry" -- "Boundary front/Symmetry=true" "Boundary left/Rotation=0; free; 0"
+plate "Boundary left/Displacement = 0; 0; 0.1" "contradicts Boundary front/Symmetry" "by 0.1" -- "Boundary front/Symmetry=true" "Boundary left/Displacement=0; 0; 0.1" "Boundary left/Rotation=0; 0; 0"
+plate "Boundary left/Displacement" "exceeds the gap by 0.1" -- "Boundary bottom/Contact=unilateral" "Boundary left/Displacement=0; -0.1; 0" "Boundary left/Rotation=0; 0; 0"
+plate "rigid-body motion free, translation in x" "no friction resists" -- "Boundary right/Displacement=" "Boundary left/Displacement=free; 0; 0" "Boundary left/Rotation=0; 0; 0"
+invalid "Boundary left/Moment" "is that of a rigid plate" "set Rigid = true" -- "Boundary left/Moment=1; 0; 0"
 invalid "Boundary bottom/Contact direction = 0; -1" "2 component(s) instead of 3" -- "Boundary bottom/Contact direction=0; -1"
 invalid "Boundary bottom/Contact direction = 0; 0; 0" "has no direction" -- "Boundary bottom/Contact direction=0; 0; 0"
 invalid "Boundary bottom/Contact direction" "uses x, y, z or t" -- "Boundary bottom/Contact direction=0; -1; z"

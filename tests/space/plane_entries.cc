@@ -16,6 +16,16 @@ using namespace space;
 /** Results of a step by what they are and where, per unit of thickness. */
 using Results = std::map<std::string, std::map<std::string, double>>;
 
+double about_z(const double moment)
+{
+  return moment;
+}
+
+double about_z(const Tensor<1, 3> &moment)
+{
+  return moment[2];
+}
+
 template <int dim>
 Results results(const StepReport<dim> &step, const double thickness)
 {
@@ -48,6 +58,11 @@ Results results(const StepReport<dim> &step, const double thickness)
         std::make_tuple("pressure", errors.pressure_l2, 0.5)})
     if (!std::isnan(value))
       found["true error"][name] = value / std::pow(thickness, power);
+  for (const PlateState<dim> &plate : step.equilibrium.plates)
+    found["plate"] = {{"U0", plate.displacement[0]},
+                      {"U1", plate.displacement[1]},
+                      {"phi", about_z(plate.rotation)},
+                      {"M", about_z(plate.moment) / thickness}};
   for (const Resultant<dim> &force : step.forces)
     for (unsigned int c = 0; c < 2; ++c)
       found["force"][force.name + std::to_string(c)] += force.force[c].value / thickness;
@@ -243,6 +258,70 @@ INSTANTIATE_TEST_SUITE_P(
             {{"Boundary right/Displacement", "0.1*t; free"}, {"Boundary top/Traction", "0; -0.5"}},
             {{"Boundary right/Displacement", "0.1*t; free; free"},
              {"Boundary top/Traction", "0; -0.5; 0"}}}),
+    [](const auto &info) { return std::string(info.param.name); });
+
+/** An entry of a plate; forces of space are those of its depth. */
+struct Said
+{
+  std::string entry, in_plane, in_space;
+};
+
+Row with_plate(const char *const name, const std::vector<Said> &entries, const Overrides &both = {},
+               const std::string &boundary = "left")
+{
+  const std::string section = "Boundary " + boundary + "/";
+  Row row{name, both + Overrides{{section + "Rigid", "true"}}, {}, {}};
+  bool is_held = false, is_turned = false;
+  for (const auto &[entry, in_plane, in_space] : entries)
+  {
+    row.plane.emplace_back(section + entry, in_plane);
+    row.space.emplace_back(section + entry, in_space);
+    is_held = is_held || entry == "Displacement";
+    is_turned = is_turned || entry == "Rotation";
+  }
+  if (!is_held)
+    row.space.emplace_back(section + "Displacement", "free; free; 0");
+  if (!is_turned)
+    row.space.emplace_back(section + "Rotation", "0; 0; free");
+  return row;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plates, PlaneEntries,
+    ::testing::Values(
+        with_plate("force", {{"Force", "1.6; -0.8", "1.2; -0.6; free"}}),
+        with_plate("force_and_moment",
+                   {{"Force", "1.6; -0.8", "1.2; -0.6; free"}, {"Moment", "2", "free; free; 1.5"}}),
+        with_plate("moment", {{"Moment", "2", "free; free; 1.5"}}),
+        with_plate("rotation", {{"Rotation", "0.01", "0; 0; 0.01"}}),
+        with_plate("displacement_beside_force", {{"Displacement", "0.1; free", "0.1; free; 0"},
+                                                 {"Force", "free; -0.8", "free; -0.6; free"}}),
+        with_plate("on_a_part",
+                   {{"Force", "1.6; -0.8", "1.2; -0.6; free"}, {"Moment", "2", "free; free; 1.5"}},
+                   {{"Boundary jaw/On", "left"}, {"Boundary jaw/Where", "y - 2"}}, "jaw"),
+        with_plate("factorised", {{"Force", "1.6; -0.8", "1.2; -0.6; free"}},
+                   {{"Solver/Linear", "direct"}}),
+        with_plate("on_a_hot_body", {{"Force", "1.6; -0.8", "1.2; -0.6; free"}},
+                   heated("10 + 3*x*y - y^2")),
+        with_plate("above_contact", {{"Force", "0.4; -8", "0.3; -6; free"}},
+                   {{"Boundary bottom/Contact", "unilateral"},
+                    {"Boundary bottom/Friction coefficient", "0.3"},
+                    {"Boundary right/Displacement", ""},
+                    {"Boundary left/Spring", "1; 2"},
+                    {"Adaptivity/Maximum steps", "1"}},
+                   "top"),
+        with_plate(
+            "history_of_a_force",
+            {{"Force", "0.4*t; -8*t", "0.3*t; -6*t; free"}, {"Moment", "t", "free; free; 0.75*t"}},
+            rough_bottom({{"Boundary right/Displacement", ""}, {"Boundary left/Spring", "1; 2"}}),
+            "top"),
+        with_plate("history_of_a_motion",
+                   {{"Displacement", "free; -0.1*t", "free; -0.1*t; 0"},
+                    {"Rotation", "0.01*t", "0; 0; 0.01*t"},
+                    {"Force", "t; free", "0.75*t; free; free"}},
+                   rough_bottom({{"Boundary right/Displacement", ""},
+                                 {"Boundary left/Spring", "1; 2"}}),
+                   "top")),
     [](const auto &info) { return std::string(info.param.name); });
 
 /** A body on y = 0 with a closed form, in plane strain, which its other sides follow. */

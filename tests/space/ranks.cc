@@ -221,6 +221,31 @@ TEST(Ranks, Springs)
                           given::steps(method, steps)}));
 }
 
+/** Their masters are unknowns of any process: on refined meshes, of many coarse cells, and beside friction. */
+TEST(Ranks, Plates)
+{
+  for (const auto &[method, steps, linear, cells] :
+       {std::tuple("hap2", "3", "multigrid", "2, 2, 1"),
+        {"hap2", "2", "direct", "2, 2, 1"},
+        {"hap2", "2", "amg", "2, 2, 1"},
+        {"hap2", "1", "multigrid", "6, 6, 2"}})
+    expect_same_run<3>(slab({{"Boundary left/Traction", ""},
+                             {"Boundary left/Rigid", "true"},
+                             {"Boundary left/Displacement", "free; 0; free"},
+                             {"Boundary left/Force", "6; free; 1"},
+                             {"Boundary left/Rotation", "0; free; free"},
+                             {"Boundary left/Moment", "free; 1; 3"},
+                             {"Geometry/Subdivisions", cells},
+                             {"Solver/Linear", linear},
+                             given::steps(method, steps)}),
+                       [](const StepReport<3> &step)
+                       {
+                         EXPECT_FALSE(step.primal->newton.fell_back);
+                         EXPECT_NEAR(step.equilibrium.plates.at(0).moment[1], 1, 1e-8);
+                         EXPECT_NEAR(step.equilibrium.plates.at(0).moment[2], 3, 1e-8);
+                       });
+}
+
 TEST(Ranks, HeatAndInitialStrain)
 {
   expect_same_run(slab({{"Boundary bottom/Contact", "unilateral"},

@@ -162,7 +162,7 @@ TEST(CurvedContact, TurnsPlatesAboutTheirMeanPoint)
   scene.geometry = geometry_of(Shape::half_disc, mesh);
   scene.name_boundaries();
   scene.boundaries[0].plate = RigidPlate<2>();
-  const PlateMotion plate(scene, scene.boundaries[0]);
+  const PlateMotion<2> plate(scene, scene.boundaries[0]);
   EXPECT_NEAR(plate.centre()[0], 0, 1e-14);
   EXPECT_NEAR(plate.centre()[1], 6 / (numbers::PI + 2), 1e-14);
 }

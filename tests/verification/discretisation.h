@@ -17,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iomanip>
 #include <memory>
 #include <random>
 #include <sstream>
@@ -30,15 +29,8 @@ namespace verification
 using namespace dealii;
 using namespace hpvi;
 
+using ::in_digits;
 using ::Overrides;
-
-/** All digits of a number, for entries and expressions. */
-inline std::string in_digits(const double value)
-{
-  std::ostringstream out;
-  out << std::setprecision(17) << value;
-  return out.str();
-}
 
 /** One of the scenes that come with the program. */
 inline Scene<2> shipped_scene(const std::string &name, const Overrides &overrides = {})

@@ -18,10 +18,16 @@ struct SupportedNode
   std::array<dealii::types::global_dof_index, dim> dofs; ///< one by component
   dealii::Point<dim> x;
   std::vector<PointCondition<dim>> conditions;
-  bool is_on_plate = false; ///< conditions say where its force can point to, and Plate what it does
+  bool is_on_plate =
+      false; ///< conditions say where its force can point to, and PlateMasters what it does
 
   /** But for one that the same boundary has said already: a node inside a side gets it from each of its cells. */
   void add(const PointCondition<dim> &condition);
+
+  /** A plate exerts any force, and holds what its motion leaves to hold. */
+  void add_plate(dealii::types::boundary_id boundary);
+
+  bool is_on(dealii::types::boundary_id boundary) const; ///< by a condition of it
 
   /**
    * The force at this node, taken apart by the conditions that can exert it: coefficients mu with

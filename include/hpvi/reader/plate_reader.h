@@ -13,9 +13,10 @@ namespace hpvi
  * Takes what @p section says of a rigid plate, Displacement among it, which is of no node then. Values are those at the
  * first of @p points, wherever that is. Without Rigid its entries must be empty.
  */
-void read_plate(const Parameters &parameters, const ExpressionReader<2> &expressions,
-                const std::string &section, const std::vector<dealii::Point<2>> &points,
-                double thickness, bool is_axisymmetric, BoundaryCondition<2> &boundary);
+template <int dim>
+void read_plate(const Parameters &parameters, const ExpressionReader<dim> &expressions,
+                const std::string &section, const std::vector<dealii::Point<dim>> &points,
+                double thickness, bool is_axisymmetric, BoundaryCondition<dim> &boundary);
 } // namespace hpvi
 
 #endif

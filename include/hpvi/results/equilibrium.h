@@ -48,8 +48,8 @@ struct PlateState
   dealii::types::boundary_id boundary;
   dealii::Point<dim> centre;           ///< c, the mean point of the boundary
   dealii::Tensor<1, dim> displacement; ///< U, that of c [length]
-  double rotation;                     ///< phi, counterclockwise [rad]
-  double moment = 0;                   ///< that it exerts about c [stress length^2]
+  Moment<dim> rotation;                ///< phi, in the plane counterclockwise [rad]
+  Moment<dim> moment{};                ///< that it exerts about c [stress length^dim]
 };
 
 /** How well the forces on one of several bodies balance, as in Equilibrium. */

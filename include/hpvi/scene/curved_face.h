@@ -38,7 +38,8 @@ public:
 
   double distance(const dealii::Point<3> &x) const;
 
-  double area() const; ///< to the 15th degree in each coordinate
+  double area() const;                 ///< to the 15th degree in each coordinate
+  dealii::Point<3> mean_point() const; ///< likewise
 
   bool is_plane() const; ///< to 1e-8 of its size
 

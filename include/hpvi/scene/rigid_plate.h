@@ -8,17 +8,17 @@
 namespace hpvi
 {
 /**
- * A rigid plate that is glued to a boundary, as of a testing machine: `u = U + phi e_z x (x - c)` there, c the mean point
- * of the undeformed boundary. Its motions are the components of U and the rotation phi, counterclockwise; each is
- * either prescribed or free under a force or, the last one, a moment about c.
+ * A rigid plate that is glued to a boundary, as of a testing machine: `u = U + phi x (x - c)` there, c the mean point
+ * of the undeformed boundary. Its motions are the components of U and those of the rotation phi, in the plane one,
+ * counterclockwise; each is either prescribed or free under a force or, a rotation, a moment about c.
  */
 template <int dim>
 struct RigidPlate
 {
-  static constexpr unsigned int n_motions = dim + 1;
+  static constexpr unsigned int n_motions = dim * (dim + 1) / 2;
   std::array<std::optional<double>, n_motions> displacement; ///< [length], [rad]; nothing: free
   std::array<double, n_motions>
-      force{}; ///< in all, of a body of unit thickness [stress length], [stress length^2]
+      force{}; ///< in all [stress length^(dim-1)], [stress length^dim]; in the plane of unit thickness
 
   bool is_free(const unsigned int motion) const
   {

@@ -23,8 +23,9 @@ struct LoadCheck
   dealii::Point<dim> centre; ///< of the body
   BoundaryForce<dim> sum;    ///< of all of them, for unit thickness
   double thickness = 1;
-  double absolute = 0; ///< of all their components, int |.| [stress length^(dim-1)]
-  double size;         ///< of the body [length], the longest lever
+  bool has_plates = false; ///< whose forces are not among them
+  double absolute = 0;     ///< of all their components, int |.| [stress length^(dim-1)]
+  double size;             ///< of the body [length], the longest lever
 
   std::string worst;                   ///< where the rules differ most, as in "Traction on top"
   dealii::Point<dim> where;            ///< the middle of that face or cell

@@ -7,6 +7,7 @@
 #include <hpvi/space/box_tables.h>
 #include <hpvi/space/contact_dof.h>
 #include <hpvi/space/opposite_faces.h>
+#include <hpvi/space/plate_constraints.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/distributed/tria.h>
@@ -117,8 +118,9 @@ public:
   const BoxTables<dim> &tables;
   const bool rests_on_contact; ///< do supports leave motions free? In space alone
   dealii::DoFHandler<dim> dof_handler;
-  dealii::IndexSet owned, relevant;
+  dealii::IndexSet owned, relevant; ///< relevant: of neighbours and plates as well
   dealii::AffineConstraints<double> constraints;
+  std::vector<PlateOnMesh<dim>> plates;          ///< all of the scene
   std::vector<ContactDofFace<dim>> faces;        ///< of this process, as the next
   std::unique_ptr<const OppositeFaces> opposite; ///< of #faces; null: no bodies touch each other
   std::vector<ContactDof<dim>> contact;          ///< what acts at its Gauss points

@@ -53,6 +53,7 @@ private:
   CellField<dim> side_load(const Cell &cell, unsigned int face) const;
   CellField<dim> load(const Cell &cell) const;
   void assemble_loads(std::vector<double> &far);
+  void add_plate_loads();
   void assemble_with_opposite(const Cell &cell, std::vector<double> &far);
   bool is_slave_cell(const Cell &cell) const;
   dealii::DynamicSparsityPattern sparsity(dealii::IndexSet &rows) const;

@@ -15,9 +15,9 @@
 namespace hpvi
 {
 /**
- * The nodes of cells of this process and beside it on boundaries with prescribed displacements or u_n = 0, by their first
- * unknown, each with the conditions of all boundaries that meet there. Throws InputError where an expression of the scene is
- * not finite.
+ * The nodes of cells of this process and beside it on boundaries with prescribed displacements, u_n = 0 or a rigid plate,
+ * by their first unknown, each with the conditions of all boundaries that meet there. Throws InputError where an expression
+ * of the scene is not finite.
  */
 template <int dim>
 std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
@@ -25,8 +25,8 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
                                                 const BoxTables<dim> &tables);
 
 /**
- * What holds nodes: hanging ones those of their neighbours, then supports in any direction. @p constraints are those of the
- * unknowns @p relevant, not closed. Throws as supported_nodes().
+ * What holds nodes: hanging ones those of their neighbours, then supports in any direction; plates see constrain_plates().
+ * @p constraints are those of the unknowns @p relevant, not closed. Throws as supported_nodes().
  */
 template <int dim>
 void constrain_supports(const Scene<dim> &scene, const dealii::DoFHandler<dim> &dof_handler,

@@ -74,7 +74,8 @@ private:
   const BoxTables<3> tables; ///< of degree one
   dealii::DoFHandler<3> dof_handler;
   dealii::AffineConstraints<double>
-      constraints; ///< as of the mesh, with zeros for what is prescribed
+      constraints; ///< as of the mesh, with zeros for what is prescribed; plates have masters of their own
+  dealii::IndexSet relevant; ///< with those masters
   std::vector<Cell> cells;
   std::vector<Node> nodes;
   std::vector<std::array<double, 8>> weights; ///< of corners, by shape function of the mesh
@@ -84,7 +85,7 @@ private:
            std::vector<std::pair<dealii::types::global_dof_index, double>>>
       opposite;
   std::set<dealii::types::global_dof_index> held; ///< constrained ones of #faces, of any process
-  struct Constrained ///< a local element, and those of the same corner that it depends on
+  struct Constrained ///< a local element, and those of the same corner or plate that it depends on
   {
     unsigned int element;
     std::vector<std::pair<unsigned int, double>> others;

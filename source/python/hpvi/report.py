@@ -145,8 +145,10 @@ class Teller:
         if summary.get("von_mises"):
             items.append(("Largest von Mises stress", self.of_stress(summary["von_mises"])))
         for name, plate in (summary.get("plates") or {}).items():
-            items.append((f"Plate {name}", f"moves by {number.vector(plate['displacement'], run.length_unit)} and turns by "
-                                           f"{number(plate['rotation'], largest=1e-3)} rad about {number.place(plate['mean_point'])}"))
+            rotation = plate["rotation"]  # in space a vector
+            turned = number.vector(rotation, "rad", 1e-3) if isinstance(rotation, list) else f"{number(rotation, largest=1e-3)} rad"
+            items.append((f"Plate {name}", f"moves by {number.vector(plate['displacement'], run.length_unit)} and turns by {turned} "
+                                           f"about {number.place(plate['mean_point'])}"))
         for name, cut in (summary.get("pretensions") or {}).items():
             items.append((f"Pretension {name}", f"force {number(cut['force'], run.force_unit, cut['force_bound'])}{self.sure(cut['force_bound'])}, "
                                                 f"shortened by {number(cut['shortening'], run.length_unit)}"))

@@ -223,7 +223,7 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
                      "or Thermal expansion is not offered by " + why +
                          "; run the reduced path on one process, or remove it"};
   for (const BoundaryCondition<dim> &boundary : scene.boundaries)
-    if (boundary.plate)
+    if (dim == 2 && boundary.plate)
       return Objection{section_of(boundary), "Rigid",
                        "is not offered by " + why +
                            "; run the reduced path on one process, or remove it",

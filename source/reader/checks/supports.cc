@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace hpvi
@@ -104,24 +105,24 @@ void check_meeting(const Scene<dim> &scene, const Point<dim> &point,
  * What @p other asks for at a point that it shares with a plate holds whichever way the plate moves: else its free motions
  * would be no motions of the body.
  */
-void check_beside_plate(const Scene<2> &scene, const BoundaryCondition<2> &boundary,
-                        const BoundaryCondition<2> &other, const Tensor<1, 2> &normal,
-                        const Point<2> &point, const double tolerance)
+template <int dim>
+void check_beside_plate(const Scene<dim> &scene, const BoundaryCondition<dim> &boundary,
+                        const PlateMotion<dim> &plate, const BoundaryCondition<dim> &other,
+                        const PlateMotion<dim> *const other_plate, const Tensor<1, dim> &normal,
+                        const Point<dim> &point, const double tolerance)
 {
-  const PlateMotion plate(scene, boundary);
-  std::vector<PointCondition<2>> conditions =
+  std::vector<PointCondition<dim>> conditions =
       conditions_at(other, normal, other.symmetry || other.contact == Contact::bilateral, point);
-  for (unsigned int c = 0; other.plate && c < 2; ++c)
+  for (unsigned int c = 0; other_plate && c < dim; ++c)
   {
-    Tensor<1, 2> axis;
+    Tensor<1, dim> axis;
     axis[c] = 1.;
-    conditions.push_back(
-        {axis, PlateMotion(scene, other).held(axis, point).value_or(std::nan("")), other.id});
+    conditions.push_back({axis, other_plate->held(axis, point).value_or(std::nan("")), other.id});
   }
   const std::string entry = other.plate ? "Rigid" : support_entry(other),
-                    place = mention(scene, section_of(other), entry) + meeting_place<2> +
+                    place = mention(scene, section_of(other), entry) + meeting_place<dim> +
                             to_string(point);
-  for (const PointCondition<2> &condition : conditions)
+  for (const PointCondition<dim> &condition : conditions)
   {
     const std::optional<double> held = plate.held(condition.direction, point);
     if (!held || std::isnan(condition.value))
@@ -213,6 +214,10 @@ void check_supports(const Scene<dim> &scene)
       check_curved_faces(scene);
     check_held_faces(scene, sides);
   }
+  std::vector<std::unique_ptr<const PlateMotion<dim>>> plates(sides.size());
+  for (unsigned int a = 0; a < sides.size(); ++a)
+    if (scene.boundaries[a].plate)
+      plates[a] = std::make_unique<const PlateMotion<dim>>(scene, scene.boundaries[a]);
   for (unsigned int a = 0; a < sides.size(); ++a)
     for (unsigned int b = a + 1; b < sides.size(); ++b)
     {
@@ -240,11 +245,12 @@ void check_supports(const Scene<dim> &scene)
           }
         }
         check_meeting(scene, point, conditions, limits, tolerance);
-        if constexpr (dim == 2)
-          for (const auto &[one, other] : {std::pair{a, b}, std::pair{b, a}})
-            if (scene.boundaries[one].plate && !scene.boundaries[other].pair)
-              check_beside_plate(scene, scene.boundaries[one], scene.boundaries[other],
-                                 sides[other].normal(point), point, tolerance);
+        for (const auto &[one, other] : {std::pair{a, b}, std::pair{b, a}})
+          if (plates[one] && !scene.boundaries[other].pair)
+            for (const Tensor<1, dim> &normal : normals_at(sides[other], point))
+              check_beside_plate<dim>(scene, scene.boundaries[one], *plates[one],
+                                      scene.boundaries[other], plates[other].get(), normal, point,
+                                      tolerance);
       }
     }
 }
