@@ -8,14 +8,17 @@
 #include <hpvi/reader/space_pairs.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/box_tree.h>
+#include <hpvi/scene/curved_facing.h>
 #include <hpvi/scene/faces_across.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace hpvi
@@ -71,6 +74,8 @@ struct SideFaces
 {
   std::vector<Side<3>::Piece> all, named; ///< named: those of the part that `Between` names
   std::vector<unsigned int> number;       ///< of these among all
+  std::vector<CurvedFace> curves;         ///< of all, where plane ones are curved as well
+  bool is_curved = false;                 ///< is any cell of second order?
 };
 
 SideFaces faces_of(const SpacePair &pair, const unsigned int k,
@@ -88,6 +93,8 @@ SideFaces faces_of(const SpacePair &pair, const unsigned int k,
       result.number.push_back(result.all.size());
     }
     result.all.push_back(piece);
+    result.curves.push_back(face.curve ? face.curve : flat_face(piece));
+    result.is_curved = result.is_curved || face.curve;
   }
   return result;
 }
@@ -165,6 +172,135 @@ void place_pair(SpacePair &pair, const unsigned int k, const SideFaces &own,
                                      })));
 }
 
+/** Of a pair that is curved, what each side sees of the other. */
+struct CurvedSides
+{
+  explicit CurvedSides(const std::array<SideFaces, 2> &sides)
+      : faces{{named(sides[0]), named(sides[1])}}, facing{{CurvedFacing(faces[0], faces[1]),
+                                                           CurvedFacing(faces[1], faces[0])}}
+  {
+  }
+
+  static CurvedFaces named(const SideFaces &side)
+  {
+    std::vector<CurvedFace> result;
+    for (const unsigned int f : side.number)
+      result.push_back(side.curves[f]);
+    return CurvedFaces(std::move(result));
+  }
+
+  std::array<CurvedFaces, 2> faces;
+  std::array<CurvedFacing, 2> facing;
+};
+
+/**
+ * Where its own normal at @p x leads from one side to the other [length]; at the rim, where it leads past the end of that, @p far.
+ */
+Expression<3> distance_between(const CurvedFaces &own, const CurvedFaces &other, const double far)
+{
+  return expression<3>(std::function<double(const Point<3> &)>(
+      [own, other, far](const Point<3> &x)
+      {
+        const CurvedFace &face = own[own.nearest(x)];
+        const auto there = other.opposite(x, face.normal(face.nearest(x)));
+        return there ? there->at.distance : far;
+      }));
+}
+
+/**
+ * Faces of a curved side of which a part alone has something opposite hang over the end of the other side, and make theirs the master;
+ * beyond @p reach nobody touches them, and they are left out.
+ */
+bool hangs_over(const CurvedFacing &facing, const double reach)
+{
+  return std::none_of(facing.faces.begin(), facing.faces.end(),
+                      [](const CurvedFacing::Face &face) { return face.is_covered(); }) ||
+         std::any_of(facing.faces.begin(), facing.faces.end(),
+                     [&](const CurvedFacing::Face &face)
+                     { return face.covered > 0 && !face.is_covered() && face.least < reach; });
+}
+
+/**
+ * What a circle through the nodes of an edge leaves open between them, `s^3/L^2` with the height s over the chord L, the largest of all
+ * edges and lines in the middle of faces [length].
+ */
+double left_open(const CurvedFaces &side)
+{
+  double result = 0;
+  for (unsigned int f = 0; f < side.size(); ++f)
+  {
+    const CurvedFace::Nodes &nodes = side[f].nodes();
+    for (const auto &[along, across] : {std::pair(1, 3), {3, 1}})
+      for (int line = 0; line < 3; ++line)
+      {
+        const Point<3> *const p = &nodes[across * line];
+        const Tensor<1, 3> chord = p[2 * along] - p[0], height = p[along] - (p[0] + chord / 2.);
+        result = std::max(result, std::pow(height.norm(), 3) / chord.norm_square());
+      }
+  }
+  return result;
+}
+
+[[noreturn]] void reject_beside(const Parameters &parameters, const std::string &section,
+                                const bool look_at_each_other)
+{
+  parameters.reject(section, "Between",
+                    std::string("names sides that ") +
+                        (look_at_each_other ? "lie beside" : "do not face") +
+                        " each other; name two that lie opposite");
+}
+
+void match_curved_faces(const Parameters &parameters, const std::array<SideFaces, 2> &sides,
+                        const double size, const double smaller, SpacePair &pair)
+{
+  constexpr double touching = 0.02; // of the size of the smaller body
+  const bool has_faces = !sides[0].number.empty() && !sides[1].number.empty();
+  const auto curved = has_faces ? std::make_unique<const CurvedSides>(sides) : nullptr;
+  if (!curved || !curved->facing[0].any() || !curved->facing[1].any())
+    reject_beside(parameters, pair.section, false);
+  choose_slave(parameters, pair.section,
+               {{hangs_over(curved->facing[0], touching * smaller),
+                 hangs_over(curved->facing[1], touching * smaller)}},
+               pair.slave);
+  const CurvedFacing &seen = curved->facing[pair.slave.value_or(0)];
+  CurvedFacing::Face all;
+  for (const CurvedFacing::Face &face : seen.faces)
+    if (face.is_covered())
+    {
+      all.largest = std::max(all.largest, face.largest);
+      if (face.least < all.least)
+        std::tie(all.least, all.at_least) = std::tie(face.least, face.at_least);
+    }
+  const double closed = read_closed_within(parameters, pair.section, size),
+               within = std::max(closed, same_place * size);
+  // Faces that meet, and lie inside each other by no more than circles through their nodes leave open.
+  const double doubt = left_open(curved->faces[0]) + left_open(curved->faces[1]);
+  const bool is_in_doubt = all.least < -within && all.least >= -doubt;
+  if (all.least < -within && !is_in_doubt)
+    reject_overlap(parameters, pair.section, -all.least, " at " + to_string(all.at_least));
+  const bool touches = all.largest <= (is_in_doubt ? std::max(doubt, within) : within);
+  if (closed > 0)
+    pair.closed = closed_in_words(pair.section, pair.called, closed, all.least, all.largest);
+  else if (is_in_doubt)
+    pair.closed = pair.section + ": " + pair.called[0] + " and " + pair.called[1] + " lie up to " +
+                  to_string(-all.least) + " inside each other, at " + to_string(all.at_least) +
+                  ", less than circles through their nodes leave open, " + to_string(doubt) +
+                  (touches ? ": that counts as touching" : ": that depth counts as none");
+  for (const unsigned int k : {0, 1})
+  {
+    std::vector<bool> is_in_pair(sides[k].all.size(), false);
+    for (unsigned int f = 0; f < sides[k].number.size(); ++f)
+      is_in_pair[sides[k].number[f]] = pair.slave == 1 - k
+                                           ? curved->facing[1 - k].is_seen[f]
+                                           : curved->facing[k].faces[f].is_covered();
+    pair.where[k] =
+        expression<3>([faces = CurvedFaces(sides[k].curves), is_in_pair](const Point<3> &x)
+                      { return is_in_pair[faces.nearest(x)] ? 1. : -1.; });
+    if (!touches)
+      pair.distance[k] = beyond<3>(closed, is_in_doubt ? -all.least : 0.,
+                                   distance_between(curved->faces[k], curved->faces[1 - k], size));
+  }
+}
 } // namespace
 
 SpacePair read_space_pair(const Parameters &parameters, const std::string &section,
@@ -209,13 +345,15 @@ void match_faces(const Parameters &parameters, const std::vector<Scene<3>> &sing
                                singles[pair.bodies[1]].geometry.diameter()),
                hair = same_place * size;
   const std::array<SideFaces, 2> sides{{faces_of(pair, 0, singles), faces_of(pair, 1, singles)}};
+  if (sides[0].is_curved || sides[1].is_curved)
+    return match_curved_faces(parameters, sides, size,
+                              std::min(singles[pair.bodies[0]].geometry.diameter(),
+                                       singles[pair.bodies[1]].geometry.diameter()),
+                              pair);
   const std::array<SidesFacing, 2> facing{{facing_faces(sides[0].named, sides[1].named, hair),
                                            facing_faces(sides[1].named, sides[0].named, hair)}};
   if (!facing[0].any() || !facing[1].any())
-    parameters.reject(pair.section, "Between",
-                      std::string("names sides that ") +
-                          (facing[0].look_at_each_other ? "lie beside" : "do not face") +
-                          " each other; name two that lie opposite");
+    reject_beside(parameters, pair.section, facing[0].look_at_each_other);
   for (const SidesFacing &one : facing)
     if (one.step)
       parameters.reject(pair.section, "Between",

@@ -201,7 +201,7 @@ private:
         Tensor<1, 3> u;
         for (unsigned int j = 0; j < n; ++j)
           u += across[r * n + j] * lines[q * n + j];
-        if (face.condition->pair) // what is opposite is no polynomial where its cells end
+        if (face.condition->pair && !face.map.is_curved()) // no polynomial where its cells end
         {
           const FaceFrame<3> frame = face.frame(reference);
           u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
@@ -210,6 +210,8 @@ private:
         if (face.map.is_curved())
         {
           const FaceFrame<3> frame = face.frame(reference);
+          if (face.condition->pair)
+            u -= field.opposite(face, reference);
           u = frame.tangential(u) - field.past_slip(face, frame.x);
           ds = frame.measure;
         }

@@ -3,6 +3,7 @@
 #include <hpvi/scene/bare_joints.h>
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/contact_search.h>
+#include <hpvi/scene/curved_facing.h>
 #include <hpvi/scene/exact_side.h>
 #include <hpvi/scene/faces_across.h>
 
@@ -135,6 +136,53 @@ std::vector<BareJoint<2>> touching_sides(const Scene<2> &scene, const double wit
   return result;
 }
 
+namespace
+{
+bool is_curved(const Side<3> &side)
+{
+  return std::any_of(side.curves.begin(), side.curves.end(),
+                     [](const CurvedFace &curve) { return bool(curve); });
+}
+
+BoundingBox<3> box_around(const Side<3> &side)
+{
+  BoundingBox<3> result = side.box(0);
+  for (unsigned int k = 1; k < side.pieces.size(); ++k)
+    result.merge_with(side.box(k));
+  return result;
+}
+
+CurvedFaces curves_of(const Side<3> &side)
+{
+  std::vector<CurvedFace> result;
+  for (unsigned int k = 0; k < side.pieces.size(); ++k)
+    result.push_back(side.curve(k) ? side.curve(k) : flat_face(side.pieces[k]));
+  return CurvedFaces(std::move(result));
+}
+
+/** Where one is nearest to the other along its normals; nothing: they are farther apart than @p near, or do not look at each other. */
+std::optional<Point<3>> touching_place(const Side<3> &one, const Side<3> &other, const double near,
+                                       const double hair)
+{
+  if (!is_curved(one) && !is_curved(other))
+  {
+    const SidesFacing facing = facing_faces(one.pieces, other.pieces, hair);
+    return facing.any() && std::abs(facing.least) <= near ? std::optional(facing.at_least)
+                                                          : std::nullopt;
+  }
+  BoundingBox<3> box = box_around(one);
+  box.extend(near);
+  if (box.get_neighbor_type(box_around(other)) == NeighborType::not_neighbors)
+    return std::nullopt;
+  const CurvedFacing facing(curves_of(one), curves_of(other));
+  const auto nearest = std::min_element(facing.faces.begin(), facing.faces.end(),
+                                        [](const CurvedFacing::Face &a, const CurvedFacing::Face &b)
+                                        { return a.least < b.least; });
+  return facing.any() && std::abs(nearest->least) <= near ? std::optional(nearest->at_least)
+                                                          : std::nullopt;
+}
+} // namespace
+
 std::vector<BareJoint<3>> touching_sides(const Scene<3> &scene, const double within)
 {
   std::vector<BareJoint<3>> result;
@@ -147,9 +195,8 @@ std::vector<BareJoint<3>> touching_sides(const Scene<3> &scene, const double wit
           sides[other.id].pieces.empty() ||
           scene.geometry.body_of_side(one.side) >= scene.geometry.body_of_side(other.side))
         continue;
-      const SidesFacing facing = facing_faces(sides[one.id].pieces, sides[other.id].pieces, hair);
-      if (facing.any() && std::abs(facing.least) <= near)
-        result.push_back({{{called(scene, one), called(scene, other)}}, facing.at_least});
+      if (const auto at = touching_place(sides[one.id], sides[other.id], near, hair))
+        result.push_back({{{called(scene, one), called(scene, other)}}, *at});
     }
   return result;
 }

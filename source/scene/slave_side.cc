@@ -57,4 +57,30 @@ std::vector<bool> masters_of(const Scene<3> &scene)
     result[pair.parts[1 - slave_of(scene, pair)]] = true;
   return result;
 }
+
+std::vector<bool> curved_pairs(const Scene<3> &scene)
+{
+  std::vector<bool> result(scene.pairs.size(), false);
+  const HexahedralMesh *const mesh = hexahedra_of(scene.geometry);
+  if (!mesh || mesh->bent.empty())
+    return result;
+  for (const HexahedralMesh::Face &face : mesh->faces)
+    if (mesh->bent.count(face.cell) > 0)
+      for (unsigned int p = 0; p < result.size(); ++p)
+        if (face.boundary == scene.pairs[p].sides[0] || face.boundary == scene.pairs[p].sides[1])
+          result[p] = true;
+  return result;
+}
+
+std::vector<bool> opposite_boundaries(const Scene<3> &scene)
+{
+  std::vector<bool> result = masters_of(scene);
+  const std::vector<bool> curved = curved_pairs(scene);
+  for (unsigned int p = 0; p < curved.size(); ++p)
+    for (const BoundaryCondition<3> &boundary : scene.boundaries)
+      if (curved[p] && boundary.side == scene.pairs[p].sides[1 - slave_of(scene, scene.pairs[p])] &&
+          !boundary.has_contact())
+        result[boundary.id] = true;
+  return result;
+}
 } // namespace hpvi

@@ -30,7 +30,23 @@ void add_opposite(const PrimalSpace<3> &space, const ContactDofFace<3> &face, We
 {
   const FullMatrix<double> &M_inverse = space.contact_dofs_on(face).M_inverse;
   const unsigned int n = space.tables.n_contact_dofs();
-  for (const OppositeFaces::Row &row : (*space.opposite)[&face - space.faces.data()].rows)
+  const auto &rows = (*space.opposite)[&face - space.faces.data()].rows;
+  if (face.is_curved())
+  {
+    for (const OppositeFaces::Row &row : rows)
+      for (unsigned int i = 0; i < 3 * n && !row.turned.empty(); ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          double weight = 0;
+          for (unsigned int j = 0; j < 3 * n; ++j)
+            weight += M_inverse(i, j) * row.turned[j][c];
+          for (const auto &[unknown, part] : space.opposite->nodes[row.node].entries[c])
+            weights[unknown][space.tables.numbers[space.tables.inner[face.face][i % n]][i / n]] +=
+                part * weight;
+        }
+    return;
+  }
+  for (const OppositeFaces::Row &row : rows)
     for (unsigned int k = 0; k < n; ++k)
     {
       double weight = 0;

@@ -56,7 +56,12 @@ void ContactDofTransform<Number>::add(const PrimalSpace<3> &space, const Vector 
   FullMatrix<double> C(contact_dofs.M.m(), contact_dofs.W.n());
   contact_dofs.M_inverse.mmult(C, contact_dofs.W);
   if (face.is_curved())
-    return add_row(space, pattern, face, face.components(), C, matrix);
+  {
+    add_row(space, pattern, face, face.components(), C, matrix);
+    if (values)
+      add_opposite(space, &face - space.faces.data(), std::nullopt, contact_dofs.M_inverse);
+    return;
+  }
   if (face.axes.is_rotated())
   {
     turns.push_back({static_cast<unsigned int>(inner.size()), {}});
@@ -109,24 +114,28 @@ void ContactDofTransform<Number>::add_row(const PrimalSpace<3> &space, const Vec
   }
 }
 
-/** To the last row, which is one of the face of this number. */
+/** To the last row, which is one of the face of this number; of a curved face, without @p axis, that of all components. */
 template <typename Number>
 void ContactDofTransform<Number>::add_opposite(const PrimalSpace<3> &space, const unsigned int face,
-                                               const unsigned int axis,
+                                               const std::optional<unsigned int> axis,
                                                const FullMatrix<double> &M_inverse)
 {
   std::map<unsigned int, std::vector<double>> columns;
+  const unsigned int n = M_inverse.m();
   for (const OppositeFaces::Row &opposite : (*space.opposite)[face].rows)
-    for (const auto &[unknown, weight] : space.opposite->nodes[opposite.node].entries[axis])
-    {
-      std::vector<double> &column = columns[values->place(unknown)];
-      column.resize(n);
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int j = 0; j < n; ++j)
-          column[k] += weight * M_inverse(k, j) * opposite.moments[j];
-    }
+    for (unsigned int c = axis.value_or(0); c <= axis.value_or(2); ++c)
+      for (const auto &[unknown, weight] : space.opposite->nodes[opposite.node].entries[c])
+      {
+        std::vector<double> &column = columns[values->place(unknown)];
+        column.resize(n);
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int j = 0; j < n; ++j)
+            column[k] +=
+                weight * M_inverse(k, j) * (axis ? opposite.moments[j] : opposite.turned[j][c]);
+      }
   rows.back().first_far = far.size();
   rows.back().n_far = columns.size();
+  rows.back().first_far_entry = far_to_inner.size();
   for (const auto &[place, column] : columns)
   {
     far.push_back(place);
@@ -179,7 +188,7 @@ void ContactDofTransform<Number>::transform(Vector &v) const
       for (unsigned int k = 0; k < n; ++k)
         rest[k] += column[k] * value;
     }
-    column = far_to_inner.data() + std::size_t(row.first_far) * n;
+    column = far_to_inner.data() + row.first_far_entry;
     for (unsigned int j = 0; j < row.n_far; ++j, column += n)
     {
       const Number value = exchanged[far[row.first_far + j]];
@@ -230,7 +239,7 @@ void ContactDofTransform<Number>::transform_transposed(Vector &r) const
         sum += column[k] * on_rim[k];
       r.local_element(rim[row.first_rim + j]) += sum;
     }
-    column = far_to_inner.data() + std::size_t(row.first_far) * n;
+    column = far_to_inner.data() + row.first_far_entry;
     for (unsigned int j = 0; j < row.n_far; ++j, column += n)
     {
       Number sum = 0;

@@ -164,8 +164,15 @@ void NodalReactions<dim>::add_forces_opposite(const std::vector<ContactVector<di
       for (const OppositeFaces::Row &row : opposite[number].rows)
       {
         Tensor<1, dim> force;
-        for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
-          force += row.moments[k] * force_at(space, face, k, lambda);
+        const unsigned int n = space.tables.n_contact_dofs();
+        for (unsigned int k = 0; k < n; ++k)
+        {
+          const Tensor<1, dim> own = force_at(space, face, k, lambda);
+          if (!face.is_curved())
+            force += row.moments[k] * own;
+          for (unsigned int d = 0; d < dim && face.is_curved(); ++d)
+            force += own * face.direction(d, k) * row.turned[d * n + k];
+        }
         for (const unsigned int axis : face.components())
           far[opposite.nodal_place(row.node, axis)] += force[axis];
         contact_forces.push_back(

@@ -3,8 +3,11 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/base/text.h>
 #include <hpvi/base/tolerances.h>
+#include <hpvi/plane/face_axes.h>
+#include <hpvi/scene/curved_facing.h>
 #include <hpvi/scene/faces_across.h>
 #include <hpvi/scene/hexahedral_mesh.h>
+#include <hpvi/scene/slave_side.h>
 #include <hpvi/space/opposite_faces.h>
 
 #include <deal.II/base/mpi.h>
@@ -28,6 +31,9 @@ namespace
 {
 using Cell = DoFHandler<3>::active_cell_iterator;
 
+constexpr double beyond_part =
+    0.5; ///< of the coordinates of a face, which chords of its edges leave
+
 /** With its outer normal. */
 Side<3>::Piece piece_of(const CellMap<3> &map, const unsigned int face)
 {
@@ -36,6 +42,55 @@ Side<3>::Piece piece_of(const CellMap<3> &map, const unsigned int face)
     result[v] = map.vertices()[GeometryInfo<3>::face_to_cell_vertices(face, v)];
   if (face % 2 == 0)
     std::swap(result[1], result[2]);
+  return result;
+}
+
+/** Are the coordinates of the unit cell along a face in the other order, for `x_1 x x_2` to point outwards? */
+bool is_exchanged(const unsigned int face)
+{
+  return (face % 2 == 0) != (face / 2 == 1);
+}
+
+/** Of a point of a CurvedFace that curve_of() makes. */
+Point<3> on_cell(const unsigned int face, const Point<2> &xi)
+{
+  return point_on_face<3>(face, is_exchanged(face) ? Point<2>(xi[1], xi[0]) : xi);
+}
+
+Point<2> on_curve(const unsigned int face, const Point<3> &reference)
+{
+  const auto axes = tangents<3>(face);
+  const unsigned int first = is_exchanged(face) ? 1 : 0;
+  return {reference[axes[first]], reference[axes[1 - first]]};
+}
+
+CurvedFace curve_of(const CellMap<3> &map, const unsigned int face)
+{
+  CurvedFace::Nodes nodes;
+  for (unsigned int k = 0; k < nodes.size(); ++k)
+    nodes[k] = map.point(on_cell(face, Point<2>(k % 3 / 2., k / 3 / 2.)));
+  return CurvedFace(nodes);
+}
+
+CurvedFace curve_of(const MasterFace &master)
+{
+  CurvedFace::Nodes nodes;
+  if (master.curve.empty())
+    return {};
+  std::copy(master.curve.begin(), master.curve.end(), nodes.begin());
+  return CurvedFace(nodes);
+}
+
+/** By boundary id: does it lie on a side of a curved pair? */
+std::vector<bool> on_curved_pairs(const Scene<3> &scene)
+{
+  const std::vector<bool> curved = curved_pairs(scene);
+  std::vector<bool> result(scene.boundaries.size(), false);
+  for (unsigned int p = 0; p < curved.size(); ++p)
+    for (const BoundaryCondition<3> &boundary : scene.boundaries)
+      if (curved[p] &&
+          (boundary.side == scene.pairs[p].sides[0] || boundary.side == scene.pairs[p].sides[1]))
+        result[boundary.id] = true;
   return result;
 }
 
@@ -67,11 +122,13 @@ std::vector<unsigned int> shapes_on(const BoxTables<3> &tables, const unsigned i
 }
 
 /** Of this process. */
-std::vector<MasterFace> own_masters(const DoFHandler<3> &dof_handler, const BoxTables<3> &tables,
+std::vector<MasterFace> own_masters(const Scene<3> &scene, const DoFHandler<3> &dof_handler,
+                                    const BoxTables<3> &tables,
                                     const AffineConstraints<double> &constraints,
                                     const std::vector<bool> &is_master)
 {
   std::vector<MasterFace> result;
+  const std::vector<bool> is_curved = on_curved_pairs(scene);
   std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
   const unsigned int rank = rank_of(dof_handler.get_communicator());
   for (const Cell &cell : dof_handler.active_cell_iterators())
@@ -87,7 +144,13 @@ std::vector<MasterFace> own_masters(const DoFHandler<3> &dof_handler, const BoxT
                         cell->material_id(),
                         rank,
                         cell->active_cell_index(),
+                        {},
                         {}};
+      if (is_curved[master.boundary])
+      {
+        const CurvedFace curve = curve_of(map, face);
+        master.curve.assign(curve.nodes().begin(), curve.nodes().end());
+      }
       cell->get_dof_indices(dofs);
       for (const unsigned int shape : shapes_on(tables, face))
       {
@@ -191,6 +254,15 @@ unsigned int more_points(const CellMap<3> &map, const unsigned int face)
   return std::min<double>(most, std::ceil(digits / 2 / std::log(z + std::sqrt(z * z - 1))));
 }
 
+[[noreturn]] void throw_uncovered(const ContactDofFace<3> &slave, const bool lacks_any)
+{
+  throw NumericalFailure("a face of a body at " +
+                         to_string(slave.cell->face(slave.face)->center()) + " lies opposite to " +
+                         (lacks_any ? "no" : "more than one") +
+                         " face of the other one along a part of it; give both bodies cells that "
+                         "end where the other one does");
+}
+
 /** Puts together what lies opposite to one face after the other. */
 class Search
 {
@@ -199,13 +271,26 @@ public:
       : scene(scene), tables(tables), masters(masters), pieces(pieces_of(masters)),
         polynomials(tables)
   {
-    for (const MasterFace &master : masters)
-      shapes.push_back(shapes_on(tables, master.face));
+    std::vector<CurvedFace> curved;
+    for (unsigned int m = 0; m < masters.size(); ++m)
+    {
+      shapes.push_back(shapes_on(tables, masters[m].face));
+      if (masters[m].curve.empty())
+        continue;
+      curved.push_back(curve_of(masters[m]));
+      of_surfaces.push_back(m);
+    }
+    if (!curved.empty())
+      surfaces = std::make_unique<const CurvedFaces>(std::move(curved));
   }
 
   /** Rows have numbers of nodes `node_of(master, i)`. */
   template <class NodeOf>
   OppositeFaces::Opposite opposite(const ContactDofFace<3> &slave, const NodeOf &node_of);
+
+  /** The same in a curved pair. */
+  template <class NodeOf>
+  OppositeFaces::Opposite opposite_on_curve(const ContactDofFace<3> &slave, const NodeOf &node_of);
 
 private:
   void integrate(const ContactDofFace<3> &slave, const CellMap<3> &map, const FacePlane &plane,
@@ -218,9 +303,122 @@ private:
   const NodalPolynomials polynomials;
   std::vector<std::vector<unsigned int>> shapes; ///< by master
   std::map<std::pair<unsigned int, unsigned int>, std::vector<double>>
-      integrals;             ///< of psi_k phi_d, by master and node
-  std::vector<double> areas; ///< int psi_k by the same rule
+      integrals;                               ///< of psi_k phi_d, by master and node
+  std::vector<double> areas;                   ///< int psi_k by the same rule
+  std::unique_ptr<const CurvedFaces> surfaces; ///< of curved pairs
+  std::vector<unsigned int> of_surfaces;       ///< numbers of masters
 };
+
+/** Of a face of a curved pair: all integrals by one rule, summed point by point. */
+class CurvedMoments
+{
+public:
+  CurvedMoments(const BoxTables<3> &tables, const NodalPolynomials &polynomials,
+                const ContactDofFace<3> &slave, const BoundaryCondition<3> &boundary)
+      : tables(tables), polynomials(polynomials), slave(slave), boundary(boundary),
+        map(map_of<3>(slave.cell)), n(tables.n_contact_dofs()), areas(n), centroids(n), psi(n)
+  {
+    const unsigned int n_inner = tables.inner[slave.face].size(),
+                       n_rim = tables.rim[slave.face].size();
+    moments.M.reinit(3 * n, 3 * n_inner);
+    moments.W.reinit(3 * n, 3 * n_rim);
+  }
+
+  /** By the part of the face that is @p polygon; @p shapes are those of the master. */
+  void integrate(const ConvexPolygon &polygon, const CurvedFace &surface, const MasterFace &master,
+                 const std::vector<unsigned int> &shapes,
+                 const std::function<std::vector<Tensor<1, 3>> &(unsigned int)> &row);
+
+  /** Divides by `int psi_k`. */
+  void finish();
+
+  const BoxTables<3> &tables;
+  const NodalPolynomials &polynomials;
+  const ContactDofFace<3> &slave;
+  const BoundaryCondition<3> &boundary;
+  const CellMap<3> map;
+  const unsigned int n;
+  FaceContactDofs moments;
+  std::vector<double> areas;
+  std::vector<Tensor<1, 3>> centroids;
+  double covered = 0;
+
+private:
+  void add(FullMatrix<double> &matrix, const std::vector<unsigned int> &shapes, const Point<3> &own,
+           const ContactAxes<3> &axes) const;
+
+  std::vector<double> psi;
+};
+
+Tensor<1, 3> direction(const ContactAxes<3> &axes, const unsigned int own)
+{
+  return own == 2 ? axes.normal : axes.tangents[own];
+}
+
+/** `w psi_k phi_j e_own` of the slave's own functions. */
+void CurvedMoments::add(FullMatrix<double> &matrix, const std::vector<unsigned int> &shapes,
+                        const Point<3> &own, const ContactAxes<3> &axes) const
+{
+  const std::vector<double> phi = polynomials.values(shapes, slave.face, own);
+  for (unsigned int d = 0; d < 3; ++d)
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int j = 0; j < phi.size(); ++j)
+          matrix(d * n + k, c * phi.size() + j) += psi[k] * phi[j] * direction(axes, d)[c];
+}
+
+void CurvedMoments::integrate(const ConvexPolygon &polygon, const CurvedFace &surface,
+                              const MasterFace &master, const std::vector<unsigned int> &shapes,
+                              const std::function<std::vector<Tensor<1, 3>> &(unsigned int)> &row)
+{
+  Point<2> start(0.5, 0.5);
+  for (const WeightedPoint &point : rule_on(polygon, 2 * tables.degree))
+  {
+    const Point<3> own = on_cell(slave.face, point.x);
+    const ContactAxes<3> axes = axes_of_face(map, slave.face, own, boundary);
+    const std::optional<FaceMeeting> at =
+        meeting(surface, map.point(own), axes.normal, beyond_part, start);
+    if (!at)
+      continue;
+    start = at->xi;
+    covered += point.weight;
+    const double weight = point.weight * map.face_measure(slave.face, own);
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      psi[k] = weight * tables.psi(k, slave.face, own);
+      areas[k] += psi[k];
+      centroids[k] += psi[k] * (map.point(own) - Point<3>());
+    }
+    add(moments.M, tables.inner[slave.face], own, axes);
+    add(moments.W, tables.rim[slave.face], own, axes);
+    const std::vector<double> phi =
+        polynomials.values(shapes, master.face, on_cell(master.face, at->xi));
+    for (unsigned int j = 0; j < phi.size(); ++j)
+    {
+      std::vector<Tensor<1, 3>> &sums = row(j);
+      sums.resize(3 * n);
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int k = 0; k < n; ++k)
+          sums[d * n + k] += psi[k] * phi[j] * direction(axes, d);
+    }
+  }
+}
+
+void CurvedMoments::finish()
+{
+  for (unsigned int row = 0; row < 3 * n; ++row)
+  {
+    for (unsigned int j = 0; j < moments.M.n(); ++j)
+      moments.M(row, j) /= areas[row % n];
+    for (unsigned int j = 0; j < moments.W.n(); ++j)
+      moments.W(row, j) /= areas[row % n];
+  }
+  for (unsigned int k = 0; k < n; ++k)
+    centroids[k] /= areas[k];
+  moments.areas = areas;
+  moments.M_inverse.reinit(moments.M.m(), moments.M.n());
+  moments.M_inverse.invert(moments.M);
+}
 
 void Search::integrate(const ContactDofFace<3> &slave, const CellMap<3> &map,
                        const FacePlane &plane, const ConvexPolygon &polygon,
@@ -276,26 +474,63 @@ OppositeFaces::Opposite Search::opposite(const ContactDofFace<3> &slave, const N
   {
     covered += area_of(part.polygon);
     integrate(slave, map, plane, part.polygon, part.opposite);
-    result.parts.push_back({part.opposite, {}});
+    result.parts.push_back({part.opposite, {}, {}});
     for (const Point<2> &x : part.polygon)
       result.parts.back().corners.push_back(plane.point(x));
   }
   if (std::abs(covered / area - 1) > uncovered_share)
-    throw NumericalFailure("a face of a body at " +
-                           to_string(slave.cell->face(slave.face)->center()) +
-                           " lies opposite to " + (covered < area ? "no" : "more than one") +
-                           " face of the other one along a part of it; give both bodies cells that "
-                           "end where the other one does");
+    throw_uncovered(slave, covered < area);
   std::map<unsigned int, unsigned int> rows; // by node
   for (const auto &[place, sums] : integrals)
   {
     const unsigned int node = node_of(place.first, place.second);
     const auto [row, is_new] = rows.emplace(node, result.rows.size());
     if (is_new)
-      result.rows.push_back({node, std::vector<double>(areas.size(), 0.)});
+      result.rows.push_back({node, std::vector<double>(areas.size(), 0.), {}});
     for (unsigned int k = 0; k < areas.size(); ++k)
       result.rows[row->second].moments[k] += sums[k] / areas[k];
   }
+  return result;
+}
+
+template <class NodeOf>
+OppositeFaces::Opposite Search::opposite_on_curve(const ContactDofFace<3> &slave,
+                                                  const NodeOf &node_of)
+{
+  constexpr double least_covered = 0.9, most_covered = 1.01;
+  const BoundaryCondition<3> &boundary =
+      scene.boundaries[slave.cell->face(slave.face)->boundary_id()];
+  const auto &sides = scene.pairs[*boundary.pair].sides;
+  const unsigned int other = sides[sides[0] == boundary.side ? 1 : 0];
+  OppositeFaces::Opposite result;
+  CurvedMoments moments(tables, polynomials, slave, boundary);
+  std::map<unsigned int, unsigned int> rows; // by node
+  if (surfaces)
+    for (const FacesAcross::Part &part : surfaces->parts(
+             curve_of(moments.map, slave.face), [&](const unsigned int f)
+             { return scene.boundaries[masters[of_surfaces[f]].boundary].side == other; }))
+    {
+      const unsigned int m = of_surfaces[part.opposite];
+      moments.integrate(part.polygon, (*surfaces)[part.opposite], masters[m], shapes[m],
+                        [&](const unsigned int j) -> std::vector<Tensor<1, 3>> &
+                        {
+                          const unsigned int node = node_of(m, j);
+                          const auto [row, is_new] = rows.emplace(node, result.rows.size());
+                          if (is_new)
+                            result.rows.push_back({node, {}, {}});
+                          return result.rows[row->second].turned;
+                        });
+      result.parts.push_back({m, {}, part.polygon});
+    }
+  if (moments.covered < least_covered || moments.covered > most_covered)
+    throw_uncovered(slave, moments.covered < 1);
+  moments.finish();
+  for (OppositeFaces::Row &row : result.rows)
+    for (unsigned int i = 0; i < row.turned.size(); ++i)
+      row.turned[i] /= moments.areas[i % moments.n];
+  result.own.contact_dofs = std::make_shared<const FaceContactDofs>(moments.moments);
+  for (const Tensor<1, 3> &x : moments.centroids)
+    result.own.centroids.emplace_back(x);
   return result;
 }
 } // namespace
@@ -317,7 +552,7 @@ OppositeFaces::OppositeFaces(const Scene<3> &scene, const DoFHandler<3> &dof_han
   MPI_Comm communicator = dof_handler.get_communicator();
   std::vector<MasterFace> all;
   for (auto &part : Utilities::MPI::all_gather(
-           communicator, own_masters(dof_handler, tables, constraints, master_boundaries)))
+           communicator, own_masters(scene, dof_handler, tables, constraints, master_boundaries)))
     all.insert(all.end(), part.begin(), part.end());
   collectively(communicator,
                [&]()
@@ -340,7 +575,8 @@ OppositeFaces::OppositeFaces(const Scene<3> &scene, const DoFHandler<3> &dof_han
                    faces.emplace_back();
                    if (!condition.pair)
                      continue;
-                   faces.back() = search.opposite(slave, node_of);
+                   faces.back() = slave.is_curved() ? search.opposite_on_curve(slave, node_of)
+                                                    : search.opposite(slave, node_of);
                    for (Part &part : faces.back().parts)
                    {
                      const auto [known, is_new] = kept.emplace(part.master, masters.size());
@@ -371,6 +607,7 @@ void OppositeFaces::number_nodes(const IndexSet &owned, MPI_Comm communicator)
   for (const MasterFace &master : masters)
   {
     maps.push_back(master.map());
+    surfaces.push_back(curve_of(master));
     places.emplace_back();
     for (const OppositeNode &node : master.nodes)
       places.back().push_back(of_nodes->place(node.first));
@@ -419,6 +656,8 @@ std::vector<OppositeFaces::PartPoint> OppositeFaces::points_of(const Part &part,
                                                                const ContactDofFace<3> &slave,
                                                                const unsigned int n) const
 {
+  if (slave.is_curved())
+    return points_on_curve(part, slave, n);
   const FacePlane plane{part.corners[0], slave.axes};
   const Tensor<1, 3> &normal = slave.axes.normal;
   const CellMap<3> own = map_of<3>(slave.cell);
@@ -433,6 +672,65 @@ std::vector<OppositeFaces::PartPoint> OppositeFaces::points_of(const Part &part,
                       reference_on(maps[part.master], masters[part.master].face, x, normal)});
   }
   return result;
+}
+
+std::vector<OppositeFaces::PartPoint> OppositeFaces::points_on_curve(const Part &part,
+                                                                     const ContactDofFace<3> &slave,
+                                                                     const unsigned int n) const
+{
+  const CellMap<3> map = map_of<3>(slave.cell);
+  std::vector<PartPoint> result;
+  for (const WeightedPoint &point : rule_on(part.polygon, n))
+  {
+    const Point<3> own = on_cell(slave.face, point.x);
+    if (const auto at = meeting(surfaces[part.master], map.point(own), map.normal(slave.face, own),
+                                beyond_part))
+      result.push_back({own, point.weight * map.face_measure(slave.face, own),
+                        on_cell(masters[part.master].face, at->xi)});
+  }
+  return result;
+}
+
+namespace
+{
+/** Of a point from a polygon: 0 inside. */
+double distance(const ConvexPolygon &polygon, const Point<2> &x)
+{
+  bool is_inside = false;
+  double result = std::numeric_limits<double>::max();
+  for (unsigned int k = 0; k < polygon.size(); ++k)
+  {
+    const Point<2> &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if ((a[1] > x[1]) != (b[1] > x[1]) &&
+        x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+      is_inside = !is_inside;
+    const Tensor<1, 2> way = b - a;
+    const double s = way.norm() > 0 ? std::clamp((x - a) * way / way.norm_square(), 0., 1.) : 0.;
+    result = std::min(result, (x - (a + s * way)).norm());
+  }
+  return is_inside ? 0 : result;
+}
+} // namespace
+
+OppositeFaces::Place OppositeFaces::place_on_curve(const unsigned int face, const CellMap<3> &map,
+                                                   const unsigned int face_no,
+                                                   const Point<3> &own) const
+{
+  const Point<2> xi = on_curve(face_no, own);
+  std::vector<std::pair<double, unsigned int>> nearest; // distance and part
+  for (unsigned int p = 0; p < faces[face].parts.size(); ++p)
+    nearest.emplace_back(distance(faces[face].parts[p].polygon, xi), p);
+  std::sort(nearest.begin(), nearest.end());
+  const Point<3> x = map.point(own);
+  const Tensor<1, 3> normal = map.normal(face_no, own);
+  for (const auto &[distance, p] : nearest)
+  {
+    const unsigned int master = faces[face].parts[p].master;
+    if (const auto at = meeting(surfaces[master], x, normal, beyond_part))
+      return {master, on_cell(masters[master].face, at->xi)};
+  }
+  AssertThrow(false, ExcMessage("Nothing lies opposite to a point of a face of a slave."));
+  return {};
 }
 
 Tensor<1, 3> OppositeFaces::displacement(const Place &place,

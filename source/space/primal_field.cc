@@ -125,6 +125,7 @@ void PrimalField<dim>::find_exerted()
         {
           const MasterFace &master = opposite.masters[part.master];
           FarTraction message{master.cell, master.face, slave.axes.normal, {}, {}, {}};
+          Tensor<1, 3> mean_normal;
           for (const auto &point : opposite.points_of(part, slave, space.tables.degree + 1))
           {
             const ContactTraction<3> traction = this->traction(face, point.own);
@@ -135,7 +136,10 @@ void PrimalField<dim>::find_exerted()
             message.references.push_back(point.reference);
             message.weights.push_back(point.weight);
             message.tractions.push_back(force);
+            mean_normal += point.weight * frame.normal;
           }
+          if (slave.is_curved() && mean_normal.norm() > 0)
+            message.normal = mean_normal / mean_normal.norm();
           messages[master.process].push_back(message);
         }
       }
@@ -158,13 +162,17 @@ unsigned int PrimalField<dim>::number_of(const FieldFace<dim> &face) const
 
 template <int dim>
 Tensor<1, dim> PrimalField<dim>::displacement_opposite(const FieldFace<dim> &face,
+                                                       const Point<dim> &reference,
                                                        const Point<dim> &x,
                                                        const std::vector<double> &values) const
 {
   if constexpr (dim == 3)
-    if (face.condition->pair && contact_dof_faces[face.number])
+    if (const ContactDofFace<3> *const slave = contact_dof_faces[face.number];
+        face.condition->pair && slave)
       return space.opposite->displacement(
-          space.opposite->place(number_of(face), x, contact_dof_faces[face.number]->axes.normal),
+          slave->is_curved()
+              ? space.opposite->place_on_curve(number_of(face), face.map, face.face_no, reference)
+              : space.opposite->place(number_of(face), x, slave->axes.normal),
           values);
   return {};
 }
@@ -173,14 +181,14 @@ template <int dim>
 Tensor<1, dim> PrimalField<dim>::opposite(const FieldFace<dim> &face,
                                           const Point<dim> &reference) const
 {
-  return displacement_opposite(face, face.map.point(reference), far);
+  return displacement_opposite(face, reference, face.map.point(reference), far);
 }
 
 template <int dim>
 Tensor<1, dim> PrimalField<dim>::change_opposite(const FieldFace<dim> &face,
                                                  const Point<dim> &reference) const
 {
-  return displacement_opposite(face, face.map.point(reference), far_change);
+  return displacement_opposite(face, reference, face.map.point(reference), far_change);
 }
 
 template <int dim>
@@ -278,7 +286,7 @@ Tangential<dim> PrimalField<dim>::past_slip(const FieldFace<dim> &face, const Po
           : reference_of<dim>(face.cell, x);
   AssertThrow(found, ExcMessage("A point of a contact face lies outside of its cell."));
   const Point<dim> &reference = *found;
-  Tensor<1, dim> u = -displacement_opposite(face, x, past_far);
+  Tensor<1, dim> u = -displacement_opposite(face, reference, x, past_far);
   for (unsigned int i = 0; i < field.size(); ++i) // the first component of shape i has its value
     u += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];
   return face.frame(reference).tangential(u);

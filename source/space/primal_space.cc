@@ -39,7 +39,13 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
 {
   if constexpr (dim == 3)
     if (scene.has_pairs())
-      collectively(communicator(), [&]() { masters = masters_of(scene); });
+      collectively(communicator(),
+                   [&]()
+                   {
+                     masters = masters_of(scene);
+                     opposite_to_any = opposite_boundaries(scene);
+                     curved = curved_pairs(scene);
+                   });
   number();
   collectively(communicator(),
                [&]() { constrain_supports(scene, dof_handler, tables, relevant, constraints); });
@@ -132,7 +138,32 @@ void PrimalSpace<dim>::find_opposite_faces()
   if constexpr (dim == 3)
     if (!masters.empty())
       opposite = std::make_unique<const OppositeFaces>(scene, dof_handler, tables, constraints,
-                                                       faces, masters);
+                                                       faces, opposite_to_any);
+  if (opposite)
+    for (unsigned int number = 0; number < faces.size(); ++number)
+      if (is_in_curved_pair(condition(faces[number].cell, faces[number].face)))
+        take_moments_of_parts(number);
+}
+
+/** Of a face in a curved pair, whose contact dofs are integrated where something lies opposite. */
+template <int dim>
+void PrimalSpace<dim>::take_moments_of_parts(const unsigned int number)
+{
+  ContactDofFace<dim> &face = faces[number];
+  if constexpr (dim == 3)
+  {
+    const OppositeFaces::OwnMoments &own = (*opposite)[number].own;
+    face.own = own.contact_dofs;
+    for (const unsigned int first : {face.friction, face.pressure})
+      for (unsigned int k = 0; first != numbers::invalid_unsigned_int && k < own.centroids.size();
+           ++k)
+      {
+        ContactDof<3> &contact_dof = contact[first + k];
+        contact_dof.centroid = own.centroids[k];
+        contact_dof.area = own.contact_dofs->areas[k];
+        contact_dof.weight = contact_dof.bound * contact_dof.area;
+      }
+  }
 }
 
 /** Faces of a mesh from a file have directions of their own, as `Contact direction` has, and measures. */
@@ -151,7 +182,7 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
     return face;
   }
   const CellMap<dim> map = map_of<dim>(cell);
-  if (map.is_curved())
+  if (map.is_curved() || is_in_curved_pair(boundary))
   {
     const auto axes = [&](const Point<dim> &x) { return axes_of_face(map, number, x, boundary); };
     face.own = std::make_shared<const FaceContactDofs>(tables.curved_moments_of(map, number, axes));
@@ -309,6 +340,7 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
       Vector<double> of_inner = components_at(dofs, inner_shapes, u), all(of_inner.size());
       contact_dofs.W.vmult(all, components_at(dofs, rim_shapes, u));
       of_inner -= all;
+      of_inner += moments_opposite(number, far);
       contact_dofs.M_inverse.vmult(all, of_inner);
       for (unsigned int i = 0; i < all.size(); ++i)
         complete(dof(dofs, inner_shapes[i % n], i / n)) = all[i];
@@ -358,6 +390,20 @@ Tensor<1, dim> PrimalSpace<dim>::moment_opposite(const unsigned int face, const 
 }
 
 template <int dim>
+Vector<double> PrimalSpace<dim>::moments_opposite(const unsigned int face,
+                                                  const std::vector<double> &far) const
+{
+  Vector<double> result(dim * tables.n_contact_dofs());
+  if constexpr (dim == 3)
+    if (opposite)
+      for (const OppositeFaces::Row &row : (*opposite)[face].rows)
+        for (unsigned int i = 0; i < row.turned.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            result[i] += row.turned[i][c] * far[opposite->nodal_place(row.node, c)];
+  return result;
+}
+
+template <int dim>
 DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) const
 {
   DistributedVector v = owned_vector();
@@ -376,6 +422,7 @@ DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) 
       Vector<double> m(dim * inner_shapes.size());
       contact_dofs.M.vmult(m, components_at(dofs, inner_shapes, u));
       contact_dofs.W.vmult_add(m, components_at(dofs, tables.rim[face.face], u));
+      m -= moments_opposite(number, far);
       for (unsigned int i = 0; i < m.size(); ++i)
         v(dof(dofs, inner_shapes[i % inner_shapes.size()], i / inner_shapes.size())) = m[i];
       continue;

@@ -89,7 +89,7 @@ std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
     face.cell->get_dof_indices(dofs);
     const bool is_jump =
         space.condition(face.cell, face.face).pair.has_value(); // all bodies move alike
-    if (face.is_curved())
+    if (face.is_curved() && !is_jump)
     {
       set_on_curved(space, face, result);
       continue;

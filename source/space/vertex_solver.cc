@@ -184,7 +184,7 @@ void VertexSolver::find_opposite()
   for (const auto &cell : dof_handler.active_cell_iterators())
     for (const unsigned int face : cell->face_indices())
       if (cell->is_locally_owned() && cell->at_boundary(face) &&
-          space.is_master(cell->face(face)->boundary_id()))
+          space.is_opposite(cell->face(face)->boundary_id()))
       {
         cell->get_dof_indices(dofs);
         own.insert(own.end(), {cell->active_cell_index(), face, 0, 0, 0, 0, 0});
@@ -225,6 +225,20 @@ void VertexSolver::find_opposite()
   }
 }
 
+namespace
+{
+/** Of a face whose directions turn the mean of all three, near enough for what only precedes others. */
+double mean_of(const OppositeFaces::Row &row, const ContactDofFace<3> &face, const unsigned int k)
+{
+  if (!face.is_curved())
+    return row.moments[k];
+  double sum = 0;
+  for (unsigned int d = 0; d < 3; ++d)
+    sum += row.turned[d * row.turned.size() / 3 + k] * face.direction(d, k);
+  return sum / 3;
+}
+} // namespace
+
 /** With the opposite sign. */
 void VertexSolver::add_opposite(ContactFace &face) const
 {
@@ -239,7 +253,7 @@ void VertexSolver::add_opposite(ContactFace &face) const
       for (unsigned int k = 0; k < face.means.size(); ++k)
       {
         face.means[k].resize(face.vertices.size());
-        face.means[k][place->second] -= weight * row.moments[k];
+        face.means[k][place->second] -= weight * mean_of(row, *face.face, k);
       }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The same run on one process and on all that mpirun has started: in ctest on 2 and 3.
+#include "curved_bodies.h"
 #include "runs.h"
 
 #include <hpvi/base/input_error.h>
@@ -145,6 +146,19 @@ TEST(Ranks, CoarseMeshOfManyCells)
                         given::coulomb("0.6"),
                         {"Geometry/Subdivisions", "6, 6, 2"},
                         {"Adaptivity/Maximum steps", "1"}}));
+}
+
+/** Rings whose meshes do not match, on refined meshes. */
+TEST(Ranks, CurvedBodies)
+{
+  for (const Overrides &law : {Overrides{{"Contact joint/Friction coefficient", "0.2"}},
+                               Overrides{{"Contact joint/Slave", "one.right"}}})
+    expect_same_run(two_rings(2, 3,
+                              law + Overrides{{"Contact joint/Gap", "-0.03"},
+                                              {"Boundary other.back/Displacement", "0; 0; 0.01*x"},
+                                              {"Boundary other.back/Symmetry", "false"},
+                                              {"Adaptivity/Method", "hap2"},
+                                              {"Adaptivity/Maximum steps", "2"}}));
 }
 
 TEST(Ranks, SlabOfDegreeThree)

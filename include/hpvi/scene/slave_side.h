@@ -15,6 +15,15 @@ unsigned int slave_of(const Scene<3> &scene, const ContactPair &pair);
 
 /** By boundary id: is it a part of a pair that has no multipliers? */
 std::vector<bool> masters_of(const Scene<3> &scene);
+
+/** By number of the pair: is any cell at one of both sides of second order? */
+std::vector<bool> curved_pairs(const Scene<3> &scene);
+
+/**
+ * By boundary id: may its faces lie opposite to a slave? Those of masters; in a curved pair all of that side that have no multipliers, for
+ * along normals that turn faces are seen that see nothing themselves.
+ */
+std::vector<bool> opposite_boundaries(const Scene<3> &scene);
 } // namespace hpvi
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace hpvi
@@ -45,6 +46,7 @@ private:
     unsigned int first_inner, first_rim, n_rim, matrix; ///< the last in #matrices
     std::size_t first_entry;                            ///< in #to_inner
     unsigned int first_far = 0, n_far = 0;
+    std::size_t first_far_entry = 0; ///< in #far_to_inner
   };
   struct Turn ///< of a face whose three components begin there in #inner
   {
@@ -62,8 +64,8 @@ private:
   void add_row(const PrimalSpace<3> &space, const Vector &pattern, const ContactDofFace<3> &face,
                const std::vector<unsigned int> &components, const dealii::FullMatrix<double> &C,
                unsigned int matrix);
-  void add_opposite(const PrimalSpace<3> &space, unsigned int face, unsigned int axis,
-                    const dealii::FullMatrix<double> &M_inverse);
+  void add_opposite(const PrimalSpace<3> &space, unsigned int face,
+                    std::optional<unsigned int> axis, const dealii::FullMatrix<double> &M_inverse);
   void turn(Vector &v, bool to_axes) const;
   template <bool inverse>
   void transform(Vector &v) const;
@@ -79,7 +81,7 @@ private:
   std::vector<Number> to_inner;      ///< -M^-1 W with constraints resolved, Row::n for each of #rim
   const FarValues *values = nullptr; ///< opposite to faces; null: no bodies touch
   std::vector<unsigned int> far;     ///< places there
-  std::vector<Number> far_to_inner;  ///< M^-1 R likewise, n for each of #far
+  std::vector<Number> far_to_inner;  ///< M^-1 R likewise, Row::n for each of #far
   mutable std::vector<Number> exchanged;
 };
 } // namespace hpvi

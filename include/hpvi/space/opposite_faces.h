@@ -3,6 +3,8 @@
 #define hpvi_opposite_faces_h
 
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/scene/common_part.h>
+#include <hpvi/scene/curved_face.h>
 #include <hpvi/space/box_tables.h>
 #include <hpvi/space/contact_dof.h>
 #include <hpvi/space/far_values.h>
@@ -11,6 +13,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace hpvi
@@ -43,13 +46,15 @@ struct MasterFace
   dealii::types::material_id material = 0;
   unsigned int process = 0, cell = 0; ///< its owner, and the cell by active_cell_index() there
   std::vector<OppositeNode> nodes;    ///< those on the rim first
+  std::vector<dealii::Point<3>>
+      curve; ///< of a pair that is curved, as those of CurvedFace; none: it is plane
 
-  CellMap<3> map() const;
+  CellMap<3> map() const; ///< of a plane one
 
   template <class Archive>
   void serialize(Archive &archive, unsigned int)
   {
-    archive &corners &face &boundary &material &process &cell &nodes;
+    archive &corners &face &boundary &material &process &cell &nodes &curve;
   }
 };
 
@@ -61,6 +66,7 @@ struct MasterFace
  *
  * phi_d the shape functions of the master at the points opposite. Where both faces are parallelograms these integrals are exact: a
  * face of the slave is cut into what lies opposite to one face of the master each. All faces of masters are known to all processes.
+ * In a curved pair the normal of the slave turns, and M, W and R are integrated by one rule on parts of the face.
  */
 class OppositeFaces
 {
@@ -70,6 +76,8 @@ public:
   {
     unsigned int node;           ///< of #nodes
     std::vector<double> moments; ///< R by Gauss point
+    /** Of a curved pair, whose directions e_i turn, instead: `int psi_k phi_d e_i / int psi_k` by i n + k. */
+    std::vector<dealii::Tensor<1, 3>> turned;
   };
 
   /** A part of a slave's face with one face of the master opposite. */
@@ -77,6 +85,14 @@ public:
   {
     unsigned int master;                   ///< of #masters
     std::vector<dealii::Point<3>> corners; ///< on the slave's face, in order
+    ConvexPolygon polygon; ///< of a curved pair instead, in coordinates of the slave's face
+  };
+
+  /** Of a face of a slave in a curved pair, by the rule of its parts: what moves like the master has no jump, to round-off. */
+  struct OwnMoments
+  {
+    std::shared_ptr<const FaceContactDofs> contact_dofs;
+    std::vector<dealii::Point<3>> centroids; ///< `int psi_k x / int psi_k`
   };
 
   /** By #faces of slaves. */
@@ -84,10 +100,11 @@ public:
   {
     std::vector<Row> rows;
     std::vector<Part> parts;
+    OwnMoments own;
   };
 
   /**
-   * @p slaves are the faces with contact dofs, @p master_boundaries says of each boundary whether it is one of a master. Throws
+   * @p slaves are the faces with contact dofs, @p master_boundaries says of each boundary whether it may lie opposite to one. Throws
    * NumericalFailure where a face of a slave lies opposite to no face of its master along a part. Collective.
    */
   OppositeFaces(const Scene<3> &scene, const dealii::DoFHandler<3> &dof_handler,
@@ -126,6 +143,10 @@ public:
   Place place(unsigned int face, const dealii::Point<3> &x,
               const dealii::Tensor<1, 3> &normal) const;
 
+  /** The same in a curved pair, of the point @p own of the slave's unit cell with this map and face of it. */
+  Place place_on_curve(unsigned int face, const CellMap<3> &map, unsigned int face_no,
+                       const dealii::Point<3> &own) const;
+
   /** A point of a part: where it lies on the slave's cell, its weight, times ds of the slave's face, and where on the master's. */
   struct PartPoint
   {
@@ -142,11 +163,15 @@ public:
   dealii::Tensor<1, 3> displacement(const Place &place, const std::vector<double> &values) const;
 
 private:
+  std::vector<PartPoint> points_on_curve(const Part &part, const ContactDofFace<3> &slave,
+                                         unsigned int n) const;
+
   const BoxTables<3> &tables;
   void number_nodes(const dealii::IndexSet &owned, MPI_Comm communicator);
 
   std::vector<Opposite> faces;
-  std::vector<CellMap<3>> maps; ///< of #masters
+  std::vector<CellMap<3>> maps;     ///< of #masters, as the next
+  std::vector<CurvedFace> surfaces; ///< without nodes where they are plane
   std::vector<std::vector<unsigned int>>
       places; ///< of the first component of their nodes in nodal()
   std::unique_ptr<const FarValues> of_nodes, of_unknowns;

@@ -50,6 +50,7 @@ private:
 
   void find_exerted();
   dealii::Tensor<1, dim> displacement_opposite(const FieldFace<dim> &face,
+                                               const dealii::Point<dim> &reference,
                                                const dealii::Point<dim> &x,
                                                const std::vector<double> &values) const;
   unsigned int number_of(const FieldFace<dim> &face) const;

@@ -101,6 +101,18 @@ public:
     return !masters.empty() && masters[boundary];
   }
 
+  /** May faces of it lie opposite to a slave? */
+  bool is_opposite(const dealii::types::boundary_id boundary) const
+  {
+    return !opposite_to_any.empty() && opposite_to_any[boundary];
+  }
+
+  /** Has a pair to which it belongs a curved face, so that directions turn? */
+  bool is_in_curved_pair(const BoundaryCondition<dim> &boundary) const
+  {
+    return boundary.pair && !curved.empty() && curved[*boundary.pair];
+  }
+
   /** A face of this process; null: it has no contact dofs. */
   const ContactDofFace<dim> *moment_face(const Cell &cell, unsigned int face) const;
 
@@ -110,6 +122,10 @@ public:
   /** `sum_d R_kd u_d` on a face by its number, of values_opposite(). */
   dealii::Tensor<1, dim> moment_opposite(unsigned int face, unsigned int k,
                                          const std::vector<double> &values) const;
+
+  /** Of a curved face `sum_d R_kd u_d` along its directions e_i by i n + k, of values_opposite(). */
+  dealii::Vector<double> moments_opposite(unsigned int face,
+                                          const std::vector<double> &values) const;
 
   /** Friction counts the contact dofs of @p u, with those of neighbours, for no slip: that of the load step before. */
   void count_slip_from(const DistributedVector &u);
@@ -138,6 +154,7 @@ private:
   void number();
   void find_contact();
   void find_opposite_faces();
+  void take_moments_of_parts(unsigned int number);
   void add_contact_dofs(const ContactDofFace<dim> &face, typename ContactDof<dim>::Kind kind,
                         const std::vector<dealii::types::global_dof_index> &dofs);
   template <typename Value>
@@ -152,7 +169,9 @@ private:
                                       unsigned int shape, unsigned int component) const;
 
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> face_numbers; ///< by cell, face
-  std::vector<bool> masters; ///< by boundary; none: no bodies touch each other
+  std::vector<bool> masters;         ///< by boundary; none: no bodies touch each other
+  std::vector<bool> opposite_to_any; ///< likewise, see is_opposite()
+  std::vector<bool> curved;          ///< by pair, see is_in_curved_pair()
 };
 } // namespace hpvi
 

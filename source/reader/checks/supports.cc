@@ -159,7 +159,7 @@ bool asks_for_displacements(const BoundaryCondition<dim> &boundary)
 }
 } // namespace
 
-/** The normal displacement is held, and bodies touch each other, on plane faces. */
+/** The normal displacement is held on plane faces. */
 void check_curved_faces(const Scene<3> &scene)
 {
   const HexahedralMesh &mesh = *hexahedra_of(scene.geometry);
@@ -180,11 +180,6 @@ void check_curved_faces(const Scene<3> &scene)
                "is given on the face at " + at +
                    " of a curved cell, and space offers it on plane cells; give cells there first "
                    "order and plane faces");
-      if (boundary.pair)
-        reject(scene, section_of(boundary), "Contact",
-               "is between bodies on the face at " + at +
-                   " of a curved cell, and space offers that of plane cells; give cells there "
-                   "first order and plane faces");
     }
 }
 
