@@ -93,14 +93,59 @@ bool BoxBound::is_supported(const types::global_dof_index dof) const
   return entries && entries->empty();
 }
 
-/** mu_f chi at contact dofs. */
-std::vector<ContactVector<3>> BoxBound::couplings() const
+/** By face: does it stick as all beside it do, without a rest of slip? */
+std::vector<bool> BoxBound::zones() const
+{
+  const std::vector<bool> is_held = held();
+  std::vector<bool> result;
+  for (const ContactDofFace<3> &face : space.faces)
+  {
+    bool sticks = couples(face);
+    const auto dofs = face_dofs(face);
+    for (unsigned int t = 0; sticks && t < 2; ++t)
+    {
+      const auto &own = dofs[tangents<3>(face.face)[t]];
+      const BoxModes slip = slip_trace(own), of_w = trace_of(w, own);
+      for (unsigned int i = 0; i < own.size(); ++i)
+        sticks =
+            sticks && is_held[own[i]] && std::abs(slip[i] - of_w[i]) <= 1e-11 * u.linfty_norm();
+    }
+    result.push_back(sticks);
+  }
+  return result;
+}
+
+/** "bottom sticks on 12 faces between (0 0 0) and (1 0 1)", by boundaries. */
+std::string BoxBound::in_words(const std::vector<bool> &zones) const
+{
+  std::map<types::boundary_id, std::pair<unsigned int, BoundingBox<3>>> places;
+  for (unsigned int k = 0; k < zones.size(); ++k)
+    if (zones[k])
+    {
+      const auto face = space.faces[k].cell->face(space.faces[k].face);
+      auto &[n, box] =
+          places.emplace(face->boundary_id(), std::pair(0U, face->bounding_box())).first->second;
+      ++n;
+      box.merge_with(face->bounding_box());
+    }
+  std::string result;
+  for (const auto &[boundary, place] : places)
+    result += (result.empty() ? "" : ", ") + printable(space.scene.boundaries[boundary].name) +
+              " sticks on " + std::to_string(place.first) +
+              (place.first == 1 ? " face" : " faces") + " between " +
+              to_string(place.second.get_boundary_points().first) + " and " +
+              to_string(place.second.get_boundary_points().second);
+  return result;
+}
+
+/** mu_f chi at contact dofs, but for @p zones. */
+std::vector<ContactVector<3>> BoxBound::couplings(const std::vector<bool> &zones) const
 {
   std::vector<ContactVector<3>> result(space.contact.size());
   for (unsigned int k = 0; k < contact.size(); ++k)
   {
     const ContactDofFace<3> &face = space.faces[k];
-    if (!couples(face))
+    if (!couples(face) || zones[k])
       continue;
     const auto axes = tangents<3>(face.face);
     const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
@@ -138,14 +183,15 @@ std::set<types::global_dof_index> BoxBound::without_lift() const
 }
 
 /** A place at which mu_f jumps on a face, or between two of them, seen from the inside of each; nothing: there is none. */
-std::optional<Point<3>> BoxBound::jump_of_coefficient() const
+std::optional<Point<3>> BoxBound::jump_of_coefficient(const std::vector<bool> &zones) const
 {
   constexpr unsigned int n = 33;
   constexpr double hair = 1e-7;
   std::map<types::global_dof_index, double> at_nodes;
-  for (const ContactDofFace<3> &face : space.faces)
+  for (unsigned int number = 0; number < space.faces.size(); ++number)
   {
-    if (!couples(face))
+    const ContactDofFace<3> &face = space.faces[number];
+    if (!couples(face) || zones[number])
       continue;
     const CellMap<3> map = map_of<3>(face.cell);
     const FrictionLaw<3> &friction = space.condition(face.cell, face.face).friction;
@@ -192,7 +238,7 @@ std::optional<Point<3>> BoxBound::jump_of_coefficient() const
 }
 
 /** Where no coupling is finite: something holds the normal displacement at an edge of contact and leaves what slips, or mu_f jumps. Empty: nowhere. */
-std::string BoxBound::unbounded() const
+std::string BoxBound::unbounded(const std::vector<bool> &zones) const
 {
   std::vector<bool> is_held(space.dof_handler.n_dofs());
   for (const auto dof : space.owned)
@@ -202,7 +248,7 @@ std::string BoxBound::unbounded() const
   for (unsigned int k = 0; k < contact.size(); ++k)
   {
     const ContactDofFace<3> &face = space.faces[k];
-    if (!couples(face))
+    if (!couples(face) || zones[k])
       continue;
     const auto dofs = face_dofs(face);
     const CellMap<3> map = map_of<3>(face.cell);
@@ -219,7 +265,7 @@ std::string BoxBound::unbounded() const
                  ", where the body can slide but not lift, and no coupling is finite";
       }
   }
-  if (const auto x = jump_of_coefficient())
+  if (const auto x = jump_of_coefficient(zones))
     return "the coefficient of friction jumps at " + to_string(*x) + ", and no coupling is finite";
   return {};
 }
@@ -409,25 +455,15 @@ double BoxBound::coulomb_gap(const std::vector<BoxModes> &bumps) const
   return result;
 }
 
-/** A bound for every solution if the coupling of chi allows it; else Tresca's for the same stress is an estimate. */
-void BoxBound::set_coulomb(ErrorBound &result, const double A, const double b)
+/** theta of closed forms, of the faces beside @p zones. */
+double BoxBound::closed_forms(const std::vector<bool> &zones) const
 {
-  result.kind = BoundKind::estimate;
-  double largest = 0; // of closed forms
+  double result = 0;
   for (unsigned int k = 0; k < contact.size(); ++k)
   {
     const ContactDofFace<3> &face = space.faces[k];
-    const FrictionLaw<3> &friction = space.condition(face.cell, face.face).friction;
-    if (!couples(face))
+    if (!couples(face) || zones[k])
       continue;
-    if (!friction.is_proportional())
-    {
-      result.why = friction.name() +
-                   " has no bound of the error, whatever the coupling: its limit follows the "
-                   "pressure " +
-                   (friction.by_pressure ? "by a curve" : "up to a bound alone");
-      return;
-    }
     const double of_material = std::max(half_plane_coupling(space.scene.material_of(face.cell)),
                                         free_wedge_coupling(numbers::PI / 2));
     const CellMap<3> map = map_of<3>(face.cell);
@@ -435,30 +471,80 @@ void BoxBound::set_coulomb(ErrorBound &result, const double A, const double b)
     {
       const Point<3> x = map.point(
           on_cell_face(face.face, {{double(i % (p + 1)) / p, double(i / (p + 1)) / p, 0.}}));
-      largest = std::max(largest, of_material * friction.coefficient_at(x) *
-                                      std::hypot(contact[k].lambda[0][i], contact[k].lambda[1][i]));
+      result = std::max(
+          result, of_material * space.condition(face.cell, face.face).friction.coefficient_at(x) *
+                      std::hypot(contact[k].lambda[0][i], contact[k].lambda[1][i]));
     }
   }
-  result.why = unbounded();
+  return result;
+}
+
+/** (C) with the coupling beside @p zones, which it sets; infinite where that is too strong, or something is in the way, which `why` says. */
+double BoxBound::coupled_bound(ErrorBound &result, const std::vector<bool> &zones, const double A,
+                               const double b)
+{
+  result.why = unbounded(zones);
   if (!result.why.empty())
-    return;
-  result.coupling = std::max(largest, margin * friction_coupling(space, matrix, couplings()));
+    return infinity;
+  std::vector<bool> sticks(space.contact.size());
+  for (unsigned int k = 0; k < zones.size(); ++k)
+    for (unsigned int i = 0; zones[k] && i < space.tables.n_contact_dofs(); ++i)
+      sticks[space.faces[k].friction + i] = true;
+  result.coupling = std::max(closed_forms(zones),
+                             margin * friction_coupling(space, matrix, couplings(zones), sticks));
+  if (result.coupling > largest_coupling)
+  {
+    result.why = "the coupling of friction, " + text(result.coupling, 3) +
+                 ", is too strong for a bound of the error";
+    return infinity;
+  }
   DistributedVector X = space.ghosted_vector();
   const auto of_slip = bumps(X);
-  const double total =
-      result.coupling <= largest_coupling && of_slip
-          ? coulomb_bound(result.coupling, {A, coulomb_gap(*of_slip), b, energy_norm(X)})
-          : infinity;
-  if (std::isfinite(total))
+  if (!of_slip)
   {
-    result.total = result.radius = total;
-    result.theta = 0;
-    result.kind = BoundKind::coupling;
+    result.why = "a support is in the way of what friction against the slip costs";
+    return infinity;
   }
-  else
-    result.why = result.coupling <= largest_coupling
-                     ? "a support is in the way of what friction against the slip costs"
-                     : "the coupling of friction, " + text(result.coupling, 3) +
-                           ", is too strong for a bound of the error";
+  return coulomb_bound(result.coupling, {A, coulomb_gap(*of_slip), b, energy_norm(X)});
+}
+
+/**
+ * A bound for every solution if the coupling of chi allows it; if not, of those that stick where u_N does, with all that is beside; else
+ * Tresca's for the same stress is an estimate.
+ */
+void BoxBound::set_coulomb(ErrorBound &result, const double A, const double b)
+{
+  result.kind = BoundKind::estimate;
+  for (const ContactDofFace<3> &face : space.faces)
+    if (const FrictionLaw<3> &friction = space.condition(face.cell, face.face).friction;
+        couples(face) && !friction.is_proportional())
+    {
+      result.why = friction.name() +
+                   " has no bound of the error, whatever the coupling: its limit follows the "
+                   "pressure " +
+                   (friction.by_pressure ? "by a curve" : "up to a bound alone");
+      return;
+    }
+  std::vector<bool> assumed(space.faces.size());
+  for (const BoundKind kind : {BoundKind::coupling, BoundKind::zones})
+  {
+    ErrorBound tried = result;
+    const double total = coupled_bound(tried, assumed, A, b);
+    if (std::isfinite(total))
+    {
+      result = tried;
+      result.total = result.radius = total;
+      result.theta = 0;
+      result.kind = kind;
+      result.zones = kind == BoundKind::zones ? in_words(assumed) : "";
+      result.why.clear();
+      return;
+    }
+    if (kind == BoundKind::coupling)
+      result = tried; // what it says of all solutions stays
+    assumed = zones();
+    if (std::count(assumed.begin(), assumed.end(), true) == 0)
+      return;
+  }
 }
 } // namespace hpvi

@@ -21,11 +21,14 @@ class Coupling
 {
 public:
   Coupling(const PrimalSpace<3> &space, NewtonMatrix<3> &matrix,
-           const std::vector<ContactVector<3>> &mu_chi)
+           const std::vector<ContactVector<3>> &mu_chi, const std::vector<bool> &sticks)
       : space(space), matrix(matrix), mu_chi(mu_chi), free(space.contact.size()), held(free)
   {
-    for (ContactDofState<3> &state : held)
-      state.is_held = true;
+    for (unsigned int k = 0; k < held.size(); ++k)
+    {
+      held[k].is_held = true;
+      free[k].is_held = !sticks.empty() && sticks[k];
+    }
   }
 
   double largest_eigenvalue() const;
@@ -57,7 +60,8 @@ Coupling::Forces Coupling::trace(const Forces &f) const
 {
   DistributedVector b = space.owned_vector(), v = b;
   for (unsigned int k = 0; k < f.size(); ++k)
-    space.set_contact_value(b, k, f[k]);
+    if (!free[k].is_held)
+      space.set_contact_value(b, k, f[k]);
   matrix.linearise(free, /*anew=*/true);
   matrix.solve(v, b, linear_residual * b.l2_norm());
   Forces result(f.size());
@@ -142,8 +146,9 @@ double Coupling::largest_eigenvalue() const
 } // namespace
 
 double friction_coupling(const PrimalSpace<3> &space, NewtonMatrix<3> &matrix,
-                         const std::vector<ContactVector<3>> &mu_chi)
+                         const std::vector<ContactVector<3>> &mu_chi,
+                         const std::vector<bool> &sticks)
 {
-  return std::sqrt(std::max(0., Coupling(space, matrix, mu_chi).largest_eigenvalue()));
+  return std::sqrt(std::max(0., Coupling(space, matrix, mu_chi, sticks).largest_eigenvalue()));
 }
 } // namespace hpvi

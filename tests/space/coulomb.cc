@@ -244,8 +244,15 @@ TEST(CoulombBound, HoldsOfFinerMeshes)
     const char *name;
     Overrides entries;
     double most; ///< bound over error
+    BoundKind kind = BoundKind::coupling;
   };
-  for (const Row &row : {Row{"slides in part, hanging nodes", {given::steps("hap2", "3")}, 6.5},
+  for (const Row &row : {Row{"sticks all over",
+                             {{"Boundary top/Displacement", "0.002; -0.03; 0.001*x"},
+                              {"Boundary bottom/Gap", ""},
+                              {"Boundary bottom/Friction coefficient", "2.5"}},
+                             6.5,
+                             BoundKind::zones},
+                         Row{"slides in part, hanging nodes", {given::steps("hap2", "3")}, 6.5},
                          Row{"slides all over",
                              {{"Boundary top/Displacement", "0.05; -0.03; 0.01"},
                               {"Boundary bottom/Friction coefficient", "0.2"}},
@@ -277,7 +284,8 @@ TEST(CoulombBound, HoldsOfFinerMeshes)
                 [&](const StepReport<3> &step)
                 {
                   ASSERT_TRUE(step.bound) << row.name << ": " << step.no_bound;
-                  EXPECT_EQ(step.bound->kind, BoundKind::coupling) << step.bound->why;
+                  EXPECT_EQ(step.bound->kind, row.kind) << row.name << ": " << step.bound->why;
+                  EXPECT_EQ(step.bound->zones.empty(), row.kind == BoundKind::coupling);
                   EXPECT_GT(step.bound->total, step.errors.energy) << row.name;
                   EXPECT_GT(step.bound->total, step.bound->estimate) << row.name;
                   EXPECT_LT(step.bound->total, row.most * step.errors.energy) << row.name;

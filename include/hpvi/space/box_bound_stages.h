@@ -72,17 +72,21 @@ protected: // tests look at the stages
 
   bool couples(const ContactDofFace<3> &face) const;
   void join_directions();
-  std::vector<ContactVector<3>> couplings() const;
+  std::vector<bool> zones() const;
+  std::string in_words(const std::vector<bool> &zones) const;
+  std::vector<ContactVector<3>> couplings(const std::vector<bool> &zones) const;
   std::set<dealii::types::global_dof_index> without_lift() const;
-  std::string unbounded() const;
+  std::string unbounded(const std::vector<bool> &zones) const;
   std::vector<double> against(unsigned int face, const std::vector<double> &points) const;
   bool is_supported(dealii::types::global_dof_index dof) const;
-  std::optional<dealii::Point<3>> jump_of_coefficient() const;
+  std::optional<dealii::Point<3>> jump_of_coefficient(const std::vector<bool> &zones) const;
   std::optional<std::vector<BoxModes>> bumps(DistributedVector &X) const;
   std::vector<double> heights_of(const std::vector<std::vector<double>> &needed,
                                  unsigned int n_points) const;
   double energy_norm(const DistributedVector &of_vector) const;
   double coulomb_gap(const std::vector<BoxModes> &bumps) const;
+  double closed_forms(const std::vector<bool> &zones) const;
+  double coupled_bound(ErrorBound &result, const std::vector<bool> &zones, double A, double b);
   void set_coulomb(ErrorBound &result, double A, double b);
 
   const PrimalSpace<3> &space;
