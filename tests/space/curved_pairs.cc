@@ -284,7 +284,7 @@ const Overrides rubber{{"Material/Young's modulus", "2000"}, {"Material/Poisson'
 
 /**
  * The same body below as above is a rigid plane between both, at half of their distance; and a stiff block below is that plane. Forces
- * differ by what moves along the contact, 2e-3, which falls with the load, and where cells do not match by what these leave.
+ * differ by what moves along the contact, 2e-3, which falls with the load.
  */
 TEST(CurvedPairs, PressSpheresOnEachOther)
 {
@@ -298,14 +298,13 @@ TEST(CurvedPairs, PressSpheresOnEachOther)
                       "top");
   };
   const double rigid = on_plane("5*(2*(1 - y/10) - sqrt(4*(1 - y/10)^2 - 3) - 1)").force;
-  for (const auto &[below, slave, within] :
-       {std::tuple(4U, "one.bottom", 2.5e-3), {4U, "other.top", 2.5e-3}, {5U, "one.bottom", 5e-3}})
+  for (const char *const slave : {"one.bottom", "other.top"})
   {
-    const Pressed both = pressed_by(two_bodies(cap(4, false), cap(below, true), {"bottom", "top"},
+    const Pressed both = pressed_by(two_bodies(cap(4, false), cap(4, true), {"bottom", "top"},
                                                down + pressed("other.", "bottom", "0; 0.005; 0") +
                                                    Overrides{{"Contact joint/Slave", slave}}),
                                     "one.top");
-    EXPECT_NEAR(both.force / rigid, 1, within) << below << slave;
+    EXPECT_NEAR(both.force / rigid, 1, 2.5e-3) << slave;
   }
   const Pressed stiff = pressed_by(
       two_bodies(cap(4, false),
