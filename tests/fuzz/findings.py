@@ -85,9 +85,11 @@ def of_results(directory, status):
                 ElementTree.parse(file)
             elif file.name == "scene.json":
                 scene = json.loads(file.read_text(), parse_constant=no_constant)
-                edges = [edge for boundary in scene.get("boundaries", []) for edge in boundary["edges"]]
+                edges = [edge for boundary in scene.get("boundaries", []) for edge in boundary.get("edges", [])]  # in space faces
                 if any(edge[name] is not None and len(edge[name]) != len(edge["x"]) for edge in edges for name in ("gap", "traction", "displacement")):
                     return "scene.json has values at other places"
+                if any(len(face["x"]) not in (4, 25) for boundary in scene.get("boundaries", []) for face in boundary.get("faces", [])):
+                    return "scene.json has faces of other points"
             elif file.suffix == ".html" and not file.read_text().endswith("</html>\n"):
                 return f"{file.name} is cut"
             elif file.suffix not in (".html", ".json", ".prm", ".dat"):

@@ -211,10 +211,11 @@ class Scenes(unittest.TestCase):
         self.assertIn("friction bound 0.5", scene.describe())
         self.assertIn("set Friction bound", scene.print())
         self.assertIn("<svg", scene._repr_svg_())
-        for shows_nothing in (hpvi.Scene(BEAM), hpvi.Scene({"Boundary left/Contact": "some"})):
-            self.assertIsNone(shows_nothing._repr_svg_())
-            with self.assertRaises(hpvi.InputError):
-                shows_nothing.picture()
+        self.assertIn("<svg", hpvi.Scene(BEAM)._repr_svg_())
+        shows_nothing = hpvi.Scene({"Boundary left/Contact": "some"})
+        self.assertIsNone(shows_nothing._repr_svg_())
+        with self.assertRaises(hpvi.InputError):
+            shows_nothing.picture()
         self.assertEqual(scene.title, "Example 5.2: square block pushed along a plane")
 
     def test_a_scene_of_entries_is_that_of_a_file(self):
