@@ -44,8 +44,15 @@ std::vector<bool> BoxBound::held() const
     for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
     {
       presses &= !face.has_pressure() || lambda[face.pressure + k][0] > 0;
-      sticks &= face.has_friction() && space.contact[face.friction + k].weight > 0 &&
-                lambda[face.friction + k].norm() < 1 - 1e-9;
+      if (!face.has_friction())
+      {
+        sticks = false;
+        continue;
+      }
+      const ContactDof<3> &friction = space.contact[face.friction + k];
+      const bool acts =
+          friction.weight > 0 || (friction.has_partner() && lambda[friction.partner][0] > 0);
+      sticks &= acts && lambda[face.friction + k].norm() < 1 - 1e-9;
     }
     const auto dofs = face_dofs(face);
     for (unsigned int c = 0; c < 3; ++c)

@@ -247,10 +247,11 @@ TEST(CoulombBound, HoldsOfFinerMeshes)
     BoundKind kind = BoundKind::coupling;
   };
   for (const Row &row : {Row{"sticks all over",
-                             {{"Boundary top/Displacement", "0.002; -0.03; 0.001*x"},
+                             {{"Boundary top/Displacement", "0.05; -0.03; 0.01"},
                               {"Boundary bottom/Gap", ""},
-                              {"Boundary bottom/Friction coefficient", "2.5"}},
-                             6.5,
+                              {"Boundary bottom/Friction coefficient", "4"},
+                              given::steps("hup3", "1")},
+                             3,
                              BoundKind::zones},
                          Row{"slides in part, hanging nodes", {given::steps("hap2", "3")}, 6.5},
                          Row{"slides all over",
@@ -287,7 +288,7 @@ TEST(CoulombBound, HoldsOfFinerMeshes)
                   EXPECT_EQ(step.bound->kind, row.kind) << row.name << ": " << step.bound->why;
                   EXPECT_EQ(step.bound->zones.empty(), row.kind == BoundKind::coupling);
                   EXPECT_GT(step.bound->total, step.errors.energy) << row.name;
-                  EXPECT_GT(step.bound->total, step.bound->estimate) << row.name;
+                  EXPECT_GT(step.bound->total, (1 - 1e-9) * step.bound->estimate) << row.name;
                   EXPECT_LT(step.bound->total, row.most * step.errors.energy) << row.name;
                 });
     std::filesystem::remove(file);
@@ -399,7 +400,7 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
       held_in_part{{"Geometry/Subdivisions", "2, 1, 2"},
                    {"Boundary part/On", "left"},
                    {"Boundary part/Where", "0.5 - z"},
-                   {"Boundary part/Displacement", "0; free; 0"}};
+                   {"Boundary part/Displacement", "free; free; 0"}};
   for (const Overrides &entries : {cohesive, with(cohesive, held_in_part)})
     on_block(
         entries,
@@ -493,8 +494,8 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
                       g * (std::hypot(U[0], U[2]) - along_x[q] * U[0] - along_z[q] * U[2]));
             }
           }
-          EXPECT_GT(largest, 1e-3);
-          EXPECT_NEAR(stages.coulomb_gap(bumps), gap, 1e-4 * gap);
+          EXPECT_GT(largest, 1e-4);
+          EXPECT_NEAR(stages.coulomb_gap(bumps), gap, 1e-3 * gap); // it adds what rules differ by
           DistributedVector product = space.owned_vector(), of_X = space.in_contact_dofs(X);
           matrix.multiply(product, of_X);
           EXPECT_NEAR(stages.energy_norm(X), std::sqrt(product * of_X), 1e-9);

@@ -233,7 +233,7 @@ TEST(BoxBound, SaysWhyThereIsNone)
         {"Boundary other/Where", "x - 2"},
         {"Boundary other/Contact", "unilateral"},
         {"Boundary other/Friction coefficient", "0.2"}},
-       "the coefficient of friction jumps at (2 0"},
+       "the coefficient of friction jumps at (2, 0"},
       {{given::coulomb("0.3"),
         {"Boundary bottom/Contact", "unilateral"},
         {"Boundary bottom/Friction bound", "1"},
