@@ -1019,8 +1019,8 @@ TEST(LoadHistory, HasABoundForTheComputedPast)
 {
   const std::string file =
       (std::filesystem::temp_directory_path() / "hpvi-past-reference").string();
-  const Overrides coarse{given::steps("hup2", "2")},
-      fine{given::steps("hup4", "4"), {"Error/Bound", "false"}};
+  const Overrides coarse{given::steps("hup2", "1")},
+      fine{given::steps("hup3", "3"), {"Error/Bound", "false"}};
   struct Row
   {
     Overrides entries;
