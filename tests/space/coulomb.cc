@@ -510,4 +510,33 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
                       1e-9 * bound.total);
         });
 }
+
+/** Loads that stay move nothing more: without slip since then the bound of the second load step is no larger, and of the computed past. */
+TEST(CoulombBound, CountsSlipFromTheComputedPast)
+{
+  for (const bool is_coulomb : {false, true})
+  {
+    Overrides entries{{"Loading/Steps", "2"},
+                      {"Boundary top/Displacement", "0.03; -0.03; 0.01"},
+                      given::steps("hup2", "2")};
+    if (!is_coulomb)
+      entries = with(entries, {{"Boundary bottom/Friction coefficient", ""},
+                               {"Boundary bottom/Friction bound", "0.5"}});
+    std::vector<ErrorBound> bounds;
+    LoadHistory<3>(moved_block(entries))
+        .run(
+            [&](const StepReport<3> &step)
+            {
+              EXPECT_TRUE(step.bound) << step.no_bound;
+              if (step.bound && !step.stopped_by.empty())
+                bounds.push_back(*step.bound);
+            });
+    ASSERT_EQ(bounds.size(), 2U);
+    EXPECT_NE(bounds[0].kind, BoundKind::history);
+    EXPECT_EQ(bounds[1].kind, BoundKind::history);
+    EXPECT_TRUE(std::isnan(bounds[1].energy_below));
+    EXPECT_LT(bounds[1].total, 1.001 * bounds[0].total);
+    EXPECT_LT(bounds[1].slip, bounds[0].slip);
+  }
+}
 } // namespace
