@@ -150,18 +150,21 @@ TEST(PlatesInSpace, ForcesAndMotionsAreTheSame)
   }
 }
 
+/** A slab without its own loads and contact, clamped at its bottom, a plate on its top. */
+const Overrides clamped_below{{"Boundary left/Traction", ""},
+                              {"Boundary right/Displacement", ""},
+                              {"Boundary bottom/Contact", "none"},
+                              {"Boundary bottom/Friction bound", ""},
+                              {"Boundary bottom/Displacement", "0; 0; 0"},
+                              {"Boundary top/Rigid", "true"}};
+
 /** Of a block on its bottom: with nu = 0 its sections stay plane, and fields are of degree two. */
 TEST(PlatesInSpace, PressAndBendABlockAsStaticsSays)
 {
   const double E = 100, L = 2, a = 3, b = 1.5, F = -4, Mx = 2, Mz = 0.6;
   Scene<3> scene = slab({given::box("3, 2, 1.5", "2, 1, 1"),
                          given::elastic("100", "0"),
-                         {"Boundary left/Traction", ""},
-                         {"Boundary right/Displacement", ""},
-                         {"Boundary bottom/Contact", "none"},
-                         {"Boundary bottom/Friction bound", ""},
-                         {"Boundary bottom/Displacement", "0; 0; 0"},
-                         {"Boundary top/Rigid", "true"},
+                         clamped_below,
                          {"Boundary top/Force", "0; -4; 0"},
                          {"Boundary top/Moment", "2; 0; 0.6"},
                          given::steps("hup2", "1")});
@@ -180,12 +183,7 @@ TEST(PlatesInSpace, TiltUnderEccentricForces)
   const auto press = [](const std::string &moment)
   {
     return last_of(slab({given::box("2, 1, 2", "2, 1, 2"),
-                         {"Boundary left/Traction", ""},
-                         {"Boundary right/Displacement", ""},
-                         {"Boundary bottom/Contact", "none"},
-                         {"Boundary bottom/Friction bound", ""},
-                         {"Boundary bottom/Displacement", "0; 0; 0"},
-                         {"Boundary top/Rigid", "true"},
+                         clamped_below,
                          {"Boundary top/Force", "free; -1; free"},
                          {"Boundary top/Moment", moment},
                          given::steps("hup2", "1")}),
