@@ -370,13 +370,14 @@ TEST(Coupling, KeepsItsSpaceWhileOnlyChiChanges)
   EXPECT_LT(least, 9.); // 10 on the coarse mesh
 }
 
-/** Where the body can slide along a support that holds it down, at an end of contact, no number is one. */
+/** Where the body can slide along a support that holds it down, at an end of contact, no number is one; nor is one where mu_f jumps. */
 TEST(Coupling, IsInfiniteWhereABodySlidesButDoesNotLift)
 {
-  const auto why = [](const std::string &left)
+  const auto why = [](const std::string &left, const std::string &coefficient = "1")
   {
     std::string result;
     last_step<2>(shipped_scene("ssnv128", {{"Boundary left/Displacement", left},
+                                           {"Boundary bottom/Friction coefficient", coefficient},
                                            {"Boundary left/Traction", "150; 0"},
                                            {"Adaptivity/Maximum steps", "1"},
                                            {"Error/Bound", "false"}}),
@@ -391,6 +392,9 @@ TEST(Coupling, IsInfiniteWhereABodySlidesButDoesNotLift)
   };
   EXPECT_TRUE(says(why("free; 0"), "slide but not lift"));
   EXPECT_EQ(why("free; free"), "");
+  EXPECT_TRUE(says(why("free; free", "if(x < 13.7, 1, 0.5)"), "jumps at (13.7"));
+  EXPECT_TRUE(says(why("free; free", "if(x < 20, 1, 0.5)"), "jumps at (20"));
+  EXPECT_EQ(why("free; free", "1 - 0.01*x"), "");
 }
 
 /** What a space does not see of friction ends the bound, and is not left out. */
