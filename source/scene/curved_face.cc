@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/quadratics.h>
 #include <hpvi/scene/curved_face.h>
+#include <hpvi/scene/face_derivatives.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -13,31 +13,6 @@ using namespace dealii;
 
 namespace
 {
-/** At xi: `x - a_0`, which keeps its digits far from the origin, and its derivatives along both coordinates. */
-struct OnFace
-{
-  OnFace(const CurvedFace::Nodes &nodes, const Point<2> &xi)
-  {
-    const auto a = quadratics(xi[0], 0), b = quadratics(xi[1], 0), da = quadratics(xi[0], 1),
-               db = quadratics(xi[1], 1);
-    for (unsigned int k = 1; k < nodes.size(); ++k)
-    {
-      const Tensor<1, 3> node = nodes[k] - nodes[0];
-      from_first += a[k % 3] * b[k / 3] * node;
-      along[0] += da[k % 3] * b[k / 3] * node;
-      along[1] += a[k % 3] * db[k / 3] * node;
-    }
-  }
-
-  Tensor<1, 3> area_vector() const ///< n ds over that of the unit square
-  {
-    return cross_product_3d(along[0], along[1]);
-  }
-
-  Tensor<1, 3> from_first;
-  std::array<Tensor<1, 3>, 2> along;
-};
-
 /** Of its Bezier points, of which in each direction the middle is twice a node less the mean of its ends: the face is in their hull. */
 BoundingBox<3> box_around(const CurvedFace::Nodes &nodes)
 {
@@ -66,12 +41,12 @@ const CurvedFace::Nodes &CurvedFace::nodes() const
 
 Point<3> CurvedFace::point(const Point<2> &xi) const
 {
-  return nodes()[0] + OnFace(nodes(), xi).from_first;
+  return nodes()[0] + FaceDerivatives(nodes(), xi).from_first;
 }
 
 Tensor<1, 3> CurvedFace::normal(const Point<2> &xi) const
 {
-  const Tensor<1, 3> n = OnFace(nodes(), xi).area_vector();
+  const Tensor<1, 3> n = FaceDerivatives(nodes(), xi).area_vector();
   return n / n.norm();
 }
 
@@ -81,7 +56,7 @@ Point<2> CurvedFace::nearest(const Point<3> &x) const
   Point<2> xi(0.5, 0.5);
   for (unsigned int step = 0; step < 30; ++step)
   {
-    const OnFace here(nodes(), xi);
+    const FaceDerivatives here(nodes(), xi);
     const Tensor<1, 3> rest = (x - nodes()[0]) - here.from_first;
     Tensor<2, 2> normal;
     Tensor<1, 2> right;
@@ -103,7 +78,7 @@ Point<2> CurvedFace::nearest(const Point<3> &x) const
 
 double CurvedFace::distance(const Point<3> &x) const
 {
-  return (x - nodes()[0] - OnFace(nodes(), nearest(x)).from_first).norm();
+  return (x - nodes()[0] - FaceDerivatives(nodes(), nearest(x)).from_first).norm();
 }
 
 double CurvedFace::area() const
@@ -111,7 +86,7 @@ double CurvedFace::area() const
   const QGauss<2> rule(8);
   double result = 0;
   for (unsigned int q = 0; q < rule.size(); ++q)
-    result += rule.weight(q) * OnFace(nodes(), rule.point(q)).area_vector().norm();
+    result += rule.weight(q) * FaceDerivatives(nodes(), rule.point(q)).area_vector().norm();
   return result;
 }
 
@@ -122,7 +97,7 @@ Point<3> CurvedFace::mean_point() const
   Tensor<1, 3> moment;
   for (unsigned int q = 0; q < rule.size(); ++q)
   {
-    const OnFace here(nodes(), rule.point(q));
+    const FaceDerivatives here(nodes(), rule.point(q));
     const double ds = rule.weight(q) * here.area_vector().norm();
     size += ds;
     moment += ds * here.from_first;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <hpvi/base/quadratics.h>
 #include <hpvi/scene/curved_facing.h>
+#include <hpvi/scene/face_derivatives.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,35 +15,6 @@ namespace
 {
 constexpr double least_cosine = 0.1, ///< cosine of the angle between both faces, at least
     on_rim = 1e-6; ///< of the coordinates of a face: round-off, and parabolas beside each other
-
-/** `x - a_0` at xi, which keeps its digits far from the origin, and derivatives of it: 11, 12, 22 are the second ones. */
-struct FaceDerivatives
-{
-  FaceDerivatives(const CurvedFace::Nodes &nodes, const Point<2> &xi)
-  {
-    std::array<std::array<double, 3>, 3> a, b; // by order
-    for (unsigned int order = 0; order < 3; ++order)
-    {
-      a[order] = quadratics(xi[0], order);
-      b[order] = quadratics(xi[1], order);
-    }
-    for (unsigned int k = 1; k < nodes.size(); ++k)
-    {
-      const Tensor<1, 3> node = nodes[k] - nodes[0];
-      const unsigned int i = k % 3, j = k / 3;
-      from_first += a[0][i] * b[0][j] * node;
-      along[0] += a[1][i] * b[0][j] * node;
-      along[1] += a[0][i] * b[1][j] * node;
-      second[0] += a[2][i] * b[0][j] * node;
-      second[1] += a[1][i] * b[1][j] * node;
-      second[2] += a[0][i] * b[2][j] * node;
-    }
-  }
-
-  Tensor<1, 3> from_first;
-  std::array<Tensor<1, 3>, 2> along;
-  std::array<Tensor<1, 3>, 3> second;
-};
 
 double beyond_unit(const Point<2> &xi)
 {
