@@ -4,10 +4,24 @@
 
 #include "grid.h"
 
+#include <set>
+
 #include <unistd.h>
 
 namespace space
 {
+/** Gone when the tests are over: load steps read them again. */
+struct TemporaryFiles
+{
+  ~TemporaryFiles()
+  {
+    for (const std::string &name : names)
+      std::filesystem::remove(name);
+  }
+
+  std::set<std::string> names;
+};
+
 /** Bodies `one` and `other` of two grids, in contact at `one.@p side` and `other.@p opposite`, the sides of boundary_names(). */
 inline Scene<3> two_bodies(const Grid &one, const Grid &other,
                            const std::pair<std::string, std::string> &between,
@@ -24,9 +38,10 @@ inline Scene<3> two_bodies(const Grid &one, const Grid &other,
   out << "subsection Contact joint\n  set Between = one." << between.first << ", other."
       << between.second << "\nend\n";
   out.close();
-  Scene<3> scene = read_scene<3>(name + ".prm", entries);
+  static TemporaryFiles files;
   for (const char *const end : {"-one.msh", "-other.msh", ".prm"})
-    std::filesystem::remove(name + end);
+    files.names.insert(name + end);
+  Scene<3> scene = read_scene<3>(name + ".prm", entries);
   scene.solver.primal_tolerance = 1e-11;
   return scene;
 }

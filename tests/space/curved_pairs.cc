@@ -2,6 +2,8 @@
 // Bodies that touch along faces of second order, by meshes that do not match.
 #include "curved_bodies.h"
 
+#include <hpvi/driver/load_history.h>
+
 #include <algorithm>
 
 namespace
@@ -104,6 +106,43 @@ TEST(CurvedPairs, PassAUniformPressure)
   }
 }
 
+/** Edges of the master bend along a slave that lies away from it: cut along them, no part reaches far beyond its face of the master. */
+TEST(CurvedPairs, AreCutWhereEdgesBend)
+{
+  const Map high = [](const Point<3> &x)
+  { return Point<3>(x[0], between(x) * (1 - x[1]) + x[1], x[2]); };
+  const Map low = [](const Point<3> &x)
+  {
+    const double a = 1.8 * (x[0] - 0.5), b = 1.8 * (x[2] - 0.5);
+    const Point<3> y(0.5 + 0.9 * a - 0.4 * b, x[1], 0.5 + 0.4 * a + 0.9 * b);
+    return Point<3>(y[0], (between(y) - 0.4) * x[1] - (1 - x[1]), y[2]);
+  };
+  const Scene<3> scene =
+      two_bodies({{{2, 1, 2}}, high, true, Grid::everywhere, 27},
+                 {{{3, 1, 3}}, low, true, Grid::everywhere, 27}, {"bottom", "top"},
+                 {{"Contact joint/Slave", "one.bottom"},
+                  {"Adaptivity/Maximum steps", "1"},
+                  {"Boundary one.top/Displacement", "0; -0.001; 0"},
+                  {"Boundary other.bottom/Displacement", "0; 0; 0"}});
+  steps_of<3>(scene,
+              [&](const StepReport<3> &step)
+              {
+                const PrimalSpace<3> &space = step.primal->space;
+                double beyond = 0;
+                unsigned int n_parts = 0;
+                for (unsigned int k = 0; k < space.faces.size(); ++k)
+                  for (const OppositeFaces::Part &part : (*space.opposite)[k].parts)
+                  {
+                    ++n_parts;
+                    for (const auto &point : space.opposite->points_of(part, space.faces[k], 8))
+                      for (unsigned int d = 0; d < 3; ++d)
+                        beyond = std::max({beyond, -point.reference[d], point.reference[d] - 1});
+                  }
+                EXPECT_GT(n_parts, 9U);
+                EXPECT_LT(beyond, 4e-3); // triangles of parts that are a little concave
+              });
+}
+
 /** What moves like one body has no jump. */
 TEST(CurvedPairs, MoveLikeOneBody)
 {
@@ -197,27 +236,32 @@ void expect_balance(const StepReport<3> &step, const std::string &one, const std
   EXPECT_LT(step.equilibrium.moment_imbalance, 1e-8);
 }
 
-/** An outer ring that is drawn off the inner one: friction is its bound, under Tresca's and under Coulomb's law. */
+/** An outer ring that is drawn off the inner one by @p way along z. */
+Scene<3> drawn_ring(const bool follows_pressure, const std::string &slave, const std::string &way,
+                    const Overrides &entries = {})
+{
+  return two_rings(3, 4,
+                   Overrides{{"Boundary one.front/Symmetry", "false"},
+                             {"Boundary one.back/Symmetry", "false"},
+                             {"Boundary other.front/Symmetry", "false"},
+                             {"Boundary other.back/Symmetry", "false"},
+                             {"Boundary one.left/Displacement", "0; 0; 0"},
+                             {"Boundary other.right/Displacement", "0; 0; " + way},
+                             {"Contact joint/Gap", "-0.02"},
+                             {"Contact joint/Slave", slave},
+                             {"Adaptivity/Maximum steps", "2"},
+                             {"Adaptivity/Method", "hap2"}} +
+                       (follows_pressure ? Overrides{{"Contact joint/Friction coefficient", "0.2"}}
+                                         : Overrides{{"Contact joint/Friction bound", "0.2"}}) +
+                       entries);
+}
+
+/** Friction is its bound, under Tresca's and under Coulomb's law. */
 TEST(CurvedPairs, SlipAlongEachOther)
 {
   for (const bool follows_pressure : {false, true})
     for (const char *const slave : {"one.right", "other.left"})
-    {
-      Scene<3> scene =
-          two_rings(3, 4,
-                    Overrides{{"Boundary one.front/Symmetry", "false"},
-                              {"Boundary one.back/Symmetry", "false"},
-                              {"Boundary other.front/Symmetry", "false"},
-                              {"Boundary other.back/Symmetry", "false"},
-                              {"Boundary one.left/Displacement", "0; 0; 0"},
-                              {"Boundary other.right/Displacement", "0; 0; 0.1"},
-                              {"Contact joint/Gap", "-0.02"},
-                              {"Contact joint/Slave", slave},
-                              {"Adaptivity/Maximum steps", "2"},
-                              {"Adaptivity/Method", "hap2"}} +
-                        (follows_pressure ? Overrides{{"Contact joint/Friction coefficient", "0.2"}}
-                                          : Overrides{{"Contact joint/Friction bound", "0.2"}}));
-      steps_of<3>(scene,
+      steps_of<3>(drawn_ring(follows_pressure, slave, "0.1"),
                   [&](const StepReport<3> &step)
                   {
                     double bound = 0;
@@ -230,7 +274,48 @@ TEST(CurvedPairs, SlipAlongEachOther)
                     expect_balance(step, "one.right", "other.left", bound);
                     EXPECT_NEAR(step.energies.slack, 0, 1e-4 * bound * 0.1);
                   });
-    }
+}
+
+/** Drawn, pushed back, and left there: slip counts from the load step before, and what loads do is stored or lost by friction. */
+TEST(CurvedPairs, RememberTheirSlip)
+{
+  for (const char *const slave : {"one.right", "other.left"})
+  {
+    const Scene<3> scene =
+        drawn_ring(false, slave, "(t < 0.5 ? 0.3 : 0)", {{"Loading/Steps", "3"}});
+    std::vector<double> dissipated;
+    double drawn = 0;
+    LoadHistory<3>(scene).run(
+        [&](const StepReport<3> &step)
+        {
+          if (step.stopped_by.empty())
+            return;
+          double force = 0, slip = 0, area = 0;
+          for (const ContactPoint<3> &point : step.contact.at(0).points)
+          {
+            EXPECT_GT(std::abs(point.lambda[2]), 0.99);
+            force += 0.2 * point.area * point.lambda[2];
+            slip += point.area * point.slip[2];
+            area += point.area;
+          }
+          slip /= area;
+          dissipated.push_back(step.load.dissipated);
+          EXPECT_NEAR(step.load.work,
+                      step.load.stored + step.load.dissipated + step.load.released +
+                          step.load.unbalanced,
+                      1e-5 * dissipated[0]);
+          if (dissipated.size() == 1)
+            drawn = force;
+          else
+            EXPECT_NEAR(force, -drawn, 1e-3 * std::abs(drawn)); // friction has turned
+          if (dissipated.size() < 3)
+            EXPECT_NEAR(std::abs(slip), dissipated.size() == 1 ? 0.267 : 0.234, 0.002);
+          else
+            EXPECT_NEAR(slip, 0, 1e-7);
+        });
+    ASSERT_EQ(dissipated.size(), 3U);
+    EXPECT_NEAR(dissipated[2], dissipated[1], 1e-6 * dissipated[1]);
+  }
 }
 
 /** A quarter of a block above the plane y = 0 whose lower side is a sphere of radius 10; @p is_below: what lies below, mirrored. */
