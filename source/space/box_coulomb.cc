@@ -22,7 +22,7 @@ using namespace dealii;
 
 namespace
 {
-constexpr double margin = 1.05;  ///< what spaces still miss of theta
+constexpr double margin = 1.05;  ///< what is still missed of theta
 constexpr double reserve = 1.1;  ///< of what the samples of a face miss between them
 constexpr double no_slip = 1e-8; ///< of mu_f chi
 
@@ -138,21 +138,22 @@ std::string BoxBound::in_words(const std::vector<bool> &zones) const
   return result;
 }
 
-/** mu_f chi at contact dofs, but for @p zones. */
-std::vector<ContactVector<3>> BoxBound::couplings(const std::vector<bool> &zones) const
+/** mu_f chi at contact dofs of a space on the same mesh, but for @p zones. */
+std::vector<ContactVector<3>> BoxBound::couplings(const PrimalSpace<3> &at,
+                                                  const std::vector<bool> &zones) const
 {
-  std::vector<ContactVector<3>> result(space.contact.size());
+  std::vector<ContactVector<3>> result(at.contact.size());
   for (unsigned int k = 0; k < contact.size(); ++k)
   {
-    const ContactDofFace<3> &face = space.faces[k];
-    if (!couples(face) || zones[k])
+    const ContactDofFace<3> &face = at.faces[k];
+    if (!couples(space.faces[k]) || zones[k])
       continue;
     const auto axes = tangents<3>(face.face);
     const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
     const Point<3> corner = map_of<3>(face.cell).point(Point<3>());
-    for (unsigned int i = 0; i < space.tables.n_contact_dofs(); ++i)
+    for (unsigned int i = 0; i < at.tables.n_contact_dofs(); ++i)
     {
-      const Point<3> x = space.contact[face.friction + i].x;
+      const Point<3> x = at.contact[face.friction + i].x;
       const auto a = bernstein(p, (x - corner)[axes[0]] / size[axes[0]]),
                  b = bernstein(p, (x - corner)[axes[1]] / size[axes[1]]);
       Tensor<1, 3> chi;
@@ -161,11 +162,44 @@ std::vector<ContactVector<3>> BoxBound::couplings(const std::vector<bool> &zones
           chi[axes[t]] += a[j % (p + 1)] * b[j / (p + 1)] * contact[k].lambda[t][j];
       for (unsigned int s = 0; s < 2; ++s)
         result[face.friction + i][s] =
-            space.condition(face.cell, face.face).friction.coefficient_at(x) *
+            at.condition(face.cell, face.face).friction.coefficient_at(x) *
             (chi * face.direction(face.tangential(s)));
     }
   }
   return result;
+}
+
+/** theta of chi beside @p zones, in the space of this degree on the mesh. */
+double BoxBound::coupling_of(const unsigned int degree, const std::vector<bool> &zones)
+{
+  const auto found = [&](const PrimalSpace<3> &at, NewtonMatrix<3> &with)
+  {
+    std::vector<bool> sticks(at.contact.size());
+    for (unsigned int k = 0; k < zones.size(); ++k)
+      for (unsigned int i = 0; zones[k] && i < at.tables.n_contact_dofs(); ++i)
+        sticks[at.faces[k].friction + i] = true;
+    return friction_coupling(at, with, couplings(at, zones), sticks);
+  };
+  if (degree == p)
+    return found(space, matrix);
+  const BoxTables<3> tables(degree);
+  const PrimalSpace<3> other(
+      space.scene,
+      dynamic_cast<const PrimalSpace<3>::Mesh &>(space.dof_handler.get_triangulation()), tables);
+  PrimalSystem<3> system(other);
+  NewtonMatrix<3> of_degree(other, system);
+  return found(other, of_degree);
+}
+
+/**
+ * theta of the body: what one degree more adds is added once more, for those that are still to come. From degree 4 on, where products without
+ * a matrix end, of the degree before.
+ */
+double BoxBound::coupling(const std::vector<bool> &zones)
+{
+  const unsigned int higher = p < 4 ? p + 1 : p;
+  const double before = coupling_of(higher - 1, zones), value = coupling_of(higher, zones);
+  return value + std::max(0., value - before);
 }
 
 /** Unknowns at which X has no value: along friction, and across other contact that has a pressure. */
@@ -486,12 +520,7 @@ double BoxBound::coupled_bound(ErrorBound &result, const std::vector<bool> &zone
   result.why = unbounded(zones);
   if (!result.why.empty())
     return infinity;
-  std::vector<bool> sticks(space.contact.size());
-  for (unsigned int k = 0; k < zones.size(); ++k)
-    for (unsigned int i = 0; zones[k] && i < space.tables.n_contact_dofs(); ++i)
-      sticks[space.faces[k].friction + i] = true;
-  result.coupling = std::max(closed_forms(zones),
-                             margin * friction_coupling(space, matrix, couplings(zones), sticks));
+  result.coupling = std::max(closed_forms(zones), margin * coupling(zones));
   if (result.coupling > largest_coupling)
   {
     result.why = "the coupling of friction, " + text(result.coupling, 3) +

@@ -74,7 +74,10 @@ protected: // tests look at the stages
   void join_directions();
   std::vector<bool> zones() const;
   std::string in_words(const std::vector<bool> &zones) const;
-  std::vector<ContactVector<3>> couplings(const std::vector<bool> &zones) const;
+  std::vector<ContactVector<3>> couplings(const PrimalSpace<3> &at,
+                                          const std::vector<bool> &zones) const;
+  double coupling_of(unsigned int degree, const std::vector<bool> &zones);
+  double coupling(const std::vector<bool> &zones);
   std::set<dealii::types::global_dof_index> without_lift() const;
   std::string unbounded(const std::vector<bool> &zones) const;
   std::vector<double> against(unsigned int face, const std::vector<double> &points) const;
