@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/one_thread.h>
 
+#include <cstdlib>
 #include <mutex>
+#include <string>
 
 // Present where OpenBLAS is the BLAS in use and where CHOLMOD was built with OpenMP.
 extern "C"
 {
+  char *openblas_get_corename() __attribute__((weak));
+  void gotoblas_dynamic_quit() __attribute__((weak));
+  void gotoblas_dynamic_init() __attribute__((weak));
   int openblas_get_num_threads() __attribute__((weak));
   void openblas_set_num_threads(int) __attribute__((weak));
   int omp_get_max_active_levels() __attribute__((weak));
@@ -21,6 +26,30 @@ namespace
 std::mutex mutex;
 unsigned int n_guards = 0; ///< of all threads
 int blas_threads = 0;      ///< before the first of them
+
+/**
+ * OpenBLAS 0.3.21 takes a processor that is younger than itself for the oldest that it knows: dense products take three times as long. It
+ * chooses when it is loaded, by a variable of the environment if there is one, and chooses again here, before anybody has used it.
+ */
+struct KernelsOfThisProcessor
+{
+  KernelsOfThisProcessor()
+  {
+    const char *const variable = "OPENBLAS_CORETYPE";
+    if (!openblas_get_corename || !gotoblas_dynamic_quit || !gotoblas_dynamic_init ||
+        std::getenv(variable) || openblas_get_corename() != std::string("Prescott") ||
+        !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+      return;
+    const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    setenv(variable, is_wide ? "SkylakeX" : "Haswell", 1);
+    gotoblas_dynamic_quit();
+    gotoblas_dynamic_init();
+    unsetenv(variable);
+  }
+};
+
+const KernelsOfThisProcessor when_loaded;
 } // namespace
 
 OneThread::OneThread()

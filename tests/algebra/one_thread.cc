@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 #include <hpvi/base/one_thread.h>
 
+#include <cstdlib>
 #include <future>
 #include <optional>
+#include <string>
 #include <thread>
 
 // Present where OpenBLAS is the BLAS in use and where CHOLMOD was built with OpenMP.
 extern "C"
 {
+  char *openblas_get_corename() __attribute__((weak));
   int openblas_get_num_threads() __attribute__((weak));
   void openblas_set_num_threads(int) __attribute__((weak));
   int omp_get_max_active_levels() __attribute__((weak));
@@ -48,6 +51,14 @@ protected:
     EXPECT_EQ(omp_get_max_threads(), 7);
   }
 };
+
+/** A processor that OpenBLAS does not know is no Prescott. */
+TEST(KernelsOfOpenBlas, AreThoseOfThisProcessor)
+{
+  if (!openblas_get_corename || std::getenv("OPENBLAS_CORETYPE") || !__builtin_cpu_supports("avx2"))
+    GTEST_SKIP() << "they are chosen, or there are no better ones";
+  EXPECT_NE(openblas_get_corename(), std::string("Prescott"));
+}
 
 TEST_F(OneThreadTest, LastsAsLongAsTheGuard)
 {
