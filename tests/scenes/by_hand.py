@@ -495,6 +495,9 @@ ROWS = [
     ("punch-plate.prm", SCENES / "punch-plate.prm",
      {"forces.bottom.0": -20000, "forces.bottom.1": 300000, "contact.bottom.through.0": 70 + 80 * 20 / 300,
       "plates.punch.moment": 0}),
+    ("column-base.prm", SCENES / "column-base.prm",  # about (800, 250, 800): the resultant passes through x = z = 850
+     {"forces.bottom.force.0": -40000, "forces.bottom.force.1": 400000, "forces.bottom.moment.0": -400000 * 50,
+      "forces.bottom.moment.2": 400000 * 50 - 40000 * 250, "plates.base.moment.0": 2e7}),
     ("key.prm", SCENES / "key.prm", {"forces.right.1": -1200, "forces.left.0+forces.right.0+forces.grip.0": 0}),
     ("askew.prm", SCENES / "askew.prm",
      {"contact.bottom.normal_resultant": -1500, "contact.bottom.friction_resultant": -250, "forces.bottom.0": -250, "forces.bottom.1": 1500}),
