@@ -3,6 +3,7 @@
 #include <hpvi/base/tolerances.h>
 #include <hpvi/plane/matching.h>
 #include <hpvi/scene/boundary_parts.h>
+#include <hpvi/scene/space_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -126,6 +127,31 @@ const BoundaryCondition<dim> *curved_contact(const Scene<dim> &scene)
           return &boundary;
   return nullptr;
 }
+
+/** What the bound on boxes does not know. */
+std::string beyond_boxes(const Scene<3> &scene)
+{
+  if (scene.geometry.has_mesh())
+    return "cells of a mesh file are no boxes";
+  if (scene.has_pairs())
+    return "bodies in space touch each other";
+  if (rests_on_contact(scene))
+    return "contact alone holds the body";
+  if (scene.has_springs())
+    return "springs hold the body";
+  if (scene.has_plates())
+    return "a side is glued to a rigid plate";
+  if (scene.has_initial_strain())
+    return "a material has an initial strain";
+  for (const BoundaryCondition<3> &boundary : scene.boundaries)
+    if (boundary.contact_direction)
+      return "contact is along a direction";
+    else if (boundary.contact == Contact::bilateral && boundary.gap)
+      return "bilateral contact has a gap";
+    else if (boundary.contact != Contact::unilateral && boundary.friction.knows_pressure())
+      return "friction knows the pressure of contact that does not open";
+  return {};
+}
 } // namespace
 
 template <int dim>
@@ -137,6 +163,8 @@ std::string no_error_bound(const Scene<dim> &scene)
     return "the normal of " + printable(curved->name) +
            " turns along a curved edge on which it is held, and what holds it there is not known "
            "at every point";
+  if constexpr (dim == 3)
+    return beyond_boxes(scene);
   return {};
 }
 

@@ -256,30 +256,11 @@ ErrorBound BoxBound::compute()
     count_from_past(result);
   return result;
 }
+
 std::string no_box_bound(const PrimalSpace<3> &space, const DistributedVector &u)
 {
-  const Scene<3> &scene = space.scene;
   if (n_processes(space.communicator()) > 1)
     return "bounds in space are computed on one process";
-  if (scene.geometry.has_mesh())
-    return "cells of a mesh file are no boxes";
-  if (scene.has_pairs())
-    return "bodies in space touch each other";
-  if (space.rests_on_contact)
-    return "contact alone holds the body";
-  if (scene.has_springs())
-    return "springs hold the body";
-  if (scene.has_plates())
-    return "a side is glued to a rigid plate";
-  if (scene.has_initial_strain())
-    return "a material has an initial strain";
-  for (const BoundaryCondition<3> &boundary : scene.boundaries)
-    if (boundary.contact_direction)
-      return "contact is along a direction";
-    else if (boundary.contact == Contact::bilateral && boundary.gap)
-      return "bilateral contact has a gap";
-    else if (boundary.contact != Contact::unilateral && boundary.friction.knows_pressure())
-      return "friction knows the pressure of contact that does not open";
   if (missed_displacement(space, u) > round_off_of_supports * u.linfty_norm())
     return "prescribed displacements are no polynomials of the degree of the cells";
   return {};

@@ -2,6 +2,7 @@
 // The upper end of the least energy, J(u_N): where u_N is admissible, and nowhere else.
 #include "reduced_path.h"
 
+#include <hpvi/plane/matching.h>
 #include <hpvi/space/upper_energy.h>
 
 #include <numeric>
@@ -261,5 +262,8 @@ TEST(BoxBound, SaysWhyThereIsNone)
                   EXPECT_NE(step.no_bound.find(why), std::string::npos) << step.no_bound;
                 });
   }
+  // The table of the program has no column for what the scene rules out.
+  EXPECT_EQ(no_error_bound(read_scene<3>("prm/column-base.prm", {})),
+            "contact alone holds the body");
 }
 } // namespace
