@@ -16,6 +16,8 @@
 #include <hpvi/results/values_at.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/vector_memory.h>
 
 #include <cmath>
 #include <filesystem>
@@ -61,6 +63,9 @@ void append(PointArrays &arrays, const Point<dim> &x, const std::optional<PointV
       arrays.stress.push_back(value ? component(i, j) : nan);
 }
 
+/** The end of MPI empties deal.II's pools of vectors. What is made before it ends after it. */
+const GrowingVectorMemory<LinearAlgebra::distributed::Vector<float>> pool_of_floats;
+const GrowingVectorMemory<LinearAlgebra::distributed::Vector<double>> pool_of_doubles;
 /**
  * Runs of the primal path use MPI, which knows no threads: one at a time. These end with the process, after all that Python
  * has and before what they depend on.
