@@ -8,6 +8,7 @@
 #include <hpvi/output/probe_table.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/python/result.h>
 #include <hpvi/reader/deck/deck_mesh.h>
@@ -251,6 +252,7 @@ MeshArrays RunOf<dim>::mesh() const
       mesh.cells.push_back(vertex->second);
     }
     mesh.degrees.push_back(cell->get_fe().degree);
+    mesh.bodies.push_back(body_of<dim>(scene.geometry, cell));
   }
   return mesh;
 }
