@@ -177,7 +177,7 @@ def gallery():
     plane = [solved(scene.name, 200) for scene in scenes() if not scene.in_space]
     space = [solved(scene.name, 405) for scene in scenes() if scene.in_space]
     before, rest = GALLERY.read_text().split(BEGIN)
-    table = ["<table>", *rows(plane, 4), "</table>", "", "These scenes in space are seen from below. Beside the body is its contact, with the friction on it:", "",
+    table = ["<table>", *rows(plane, 4), "</table>", "", "These scenes are in space. Beside the body is its contact, with the friction on it:", "",
              "<table>", *rows(space, 2), "</table>", ""]
     return before + BEGIN + "\n" + "\n".join(table) + "\n" + END + rest.split(END)[1]
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside GetFEM, the growth of
-iterations and memory up to a million unknowns, speed-up, where the primal path overtakes the reduced one in the plane, what Coulomb's
-law takes, coarse meshes of many cells, and the guaranteed bound. Tables go to doc/space, and into doc/space.md between its marker comments. Runs that are there
-already are not repeated; --without million leaves some out; --large measures ten and thirty million unknowns instead, which wants 24 GB
-that are free; --draw runs nothing, and draws the charts and writes the page from the tables of doc/space."""
+iterations and memory up to a million unknowns, speed-up, where the primal path overtakes the reduced one in the plane, what Coulomb's law
+takes, coarse meshes of many cells, pairs of bodies, and the guaranteed bound. Tables go to doc/space, and into doc/space.md between its
+marker comments. Runs that are there already are not repeated; --without million leaves some out; --large measures ten and thirty million
+unknowns instead, of pairs five and nearly thirty, which wants 24 GB that are free; --draw runs nothing, and draws the charts and writes
+the page from the tables of doc/space."""
 import argparse
 import concurrent.futures
 import csv
@@ -28,7 +29,8 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=80000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts", "bound"])
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts", "pairs", "bound"])
+parser.add_argument("--pairs", type=float, nargs="*", help="limits of unknowns of the table of pairs; its last meshes have up to five times as many")
 parser.add_argument("--large", action="store_true", help="ten and thirty million unknowns, and the speed-up at millions; nothing else")
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
@@ -254,6 +256,30 @@ def parts():
                         "times_as_fast", "two_runs_at_once", "difference"], table)
 
 
+PAIRS = [("two spheres", "prm/spheres.prm", {"Contact touch/Friction coefficient": 0.3, "Body upper/Material": "soft", "Material soft/Young's modulus": 70000,
+                                             "Material soft/Poisson's ratio": 0.3}),
+         ("sphere on a rigid plane", "doc/space/sphere.prm", {})]
+
+
+def pairs():
+    """A sphere on another one and on a rigid plane under Coulomb's law, on one process and on two: wall seconds and memory of whole runs, each to the first
+    mesh of at least so many unknowns. Rows of other limits stay."""
+    table = []
+    for limit in options.pairs or ((3e6, 7e6) if options.large else (1e5, 5e5)):
+        for name, scene, entries in PAIRS:
+            one, two = (run(f"pairs-{name.replace(' ', '-')}-{limit:g}-{n}", scene, n, **entries, **{"Adaptivity/Maximum unknowns": int(limit), "Adaptivity/Maximum steps": 99})[-1]
+                        for n in (1, 2))
+            table.append([int(limit), name, *(int(one[key]) for key in ("dofs_free", "multipliers", "coulomb_fixed_point", "newton_steps", "newton_cg")),
+                          *(round(row["run_wall"], 1) for row in (one, two)), *(round(row["seconds"], 1) for row in (one, two)),
+                          *(round(row["peak_memory"] / 1e9, 2) for row in (one, two)), f"{abs(1 - two['lagrangian'] / one['lagrangian']):.1e}"])
+            print(*table[-1], flush=True)
+    if (FIGURES / "pairs.csv").exists():
+        with (FIGURES / "pairs.csv").open(newline="") as file:
+            table += [row for row in list(csv.reader(file))[1:] if int(row[0]) not in {known[0] for known in table}]
+    write("pairs.csv", ["limit", "bodies", "dofs_free", "multipliers", "tresca_problems", "newton_steps", "newton_cg", "wall_seconds_1", "wall_seconds_2", "step_seconds_1",
+                        "step_seconds_2", "gigabytes_1", "gigabytes_2", "difference"], sorted(table, key=lambda row: (row[1], int(row[0]))))
+
+
 CUBE = {"Geometry/Upper corner": "1, 1, 1", "Geometry/Subdivisions": "2, 2, 2", "Material/Young's modulus": 1, "Boundary left/Traction": "",
         "Boundary right/Displacement": "", "Boundary left/Symmetry": "true", "Boundary back/Displacement": "0; 0; 0",
         "Boundary top/Traction": "0.05; -0.3*(1 + x^2); 0.1", "Body force/Expression": "0.1*x*y; 0; -0.3*exp(x)", "Boundary bottom/Friction bound": ""}
@@ -368,6 +394,10 @@ PAGE = {
     "parts": ("part | degree | cells | free unknowns | Newton steps | conjugate-gradient steps | seconds of a run | on two processes | of its step | on two processes | times as fast | two runs at once", lambda row: [
         row["part"], row["degree"], count(row["cells"]), count(row["dofs_free"]), row["newton_steps"], row["newton_cg"],
         *(row[f"{what}_seconds_{n}"] for what in ("wall", "step") for n in (1, 2)), row["times_as_fast"], row["two_runs_at_once"]]),
+    "pairs": ("bodies | free unknowns | multipliers | problems of Tresca | Newton steps | conjugate-gradient steps | seconds of a run | on two processes | of its last step | "
+              "on two processes | gigabytes | on two processes", lambda row: [
+                  row["bodies"], count(row["dofs_free"]), count(row["multipliers"]), row["tresca_problems"], row["newton_steps"], row["newton_cg"],
+                  *(row[f"{what}_{n}"] for what in ("wall_seconds", "step_seconds", "gigabytes") for n in (1, 2))]),
     "bound": ("scene | free unknowns | bound | over the error | interval of J | J of a finer run | seconds of the bound | of the rest of its step",
               lambda row: [row["scene"], count(row["dofs_free"]), f"{float(row['bound']):.2g}", f"{float(row['over_error']):.2f}",
                            f"{float(row['energy_low']):.5g} to {float(row['energy_high']):.5g}", f"{float(row['energy_fine']):.6g}",
@@ -410,7 +440,7 @@ if options.draw:
     draw_crossover()
     draw_coulomb()
     draw_coarse()
-for part in (large,) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts, bound):
+for part in (large, pairs) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts, pairs, bound):
     if not options.draw and part.__name__ not in options.without:
         part()
 write_page()

@@ -2,6 +2,7 @@
 #include <hpvi/base/processes.h>
 #include <hpvi/output/vtk_file.h>
 #include <hpvi/output/vtu.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/results/contact_traces.h>
 #include <hpvi/results/values_at.h>
 
@@ -102,7 +103,7 @@ struct ContactMeans
   }
 };
 
-/** Degree and indicator; where there are several, the process and the material; of contact its means. */
+/** Degree and indicator; where there are several, the process, the body and the material; of contact its means. */
 template <int dim>
 std::vector<VtkArray> cell_data(const StepReport<dim> &step, const bool is_shared)
 {
@@ -123,6 +124,8 @@ std::vector<VtkArray> cell_data(const StepReport<dim> &step, const bool is_share
       { return std::sqrt(scene.thickness) * step.estimate.indicator(cell->active_cell_index()); });
   if (is_shared)
     add("process", "", [&](const auto &) { return rank_of(step.field.communicator()); });
+  if (!scene.geometry.bodies.empty())
+    add("body", "", [&](const auto &cell) { return body_of<dim>(scene.geometry, cell); });
   if (scene.materials.size() > 1)
     add("material", "", [](const auto &cell) { return cell->material_id(); });
   for (const auto &[name, mean] : {std::pair("contact_pressure", &means.pressure),

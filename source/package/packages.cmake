@@ -49,7 +49,7 @@ endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "hpvi (= ${PROJECT_VERSION}-1), python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}), python3 (<< ${Python3_VERSION_MAJOR}.${NEXT_PYTHON}), python3-numpy, python3-matplotlib, python3-jinja2")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS weasyprint)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "weasyprint, python3-vtk9, xvfb")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module of hpvi, elastic contact with friction
 Solves scenes of hpvi from Python; results are arrays of NumPy. Draws
 pictures and makes reports of runs, for the program hpvi, too.")

@@ -8,6 +8,7 @@
 #include <hpvi/output/probe_table.h>
 #include <hpvi/output/result_directory.h>
 #include <hpvi/plane/cell_map.h>
+#include <hpvi/plane/mesh.h>
 #include <hpvi/program/failure.h>
 #include <hpvi/python/result.h>
 #include <hpvi/reader/deck/deck_mesh.h>
@@ -16,6 +17,8 @@
 #include <hpvi/results/values_at.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/vector_memory.h>
 
 #include <cmath>
 #include <filesystem>
@@ -61,6 +64,9 @@ void append(PointArrays &arrays, const Point<dim> &x, const std::optional<PointV
       arrays.stress.push_back(value ? component(i, j) : nan);
 }
 
+/** The end of MPI empties deal.II's pools of vectors. What is made before it ends after it. */
+const GrowingVectorMemory<LinearAlgebra::distributed::Vector<float>> pool_of_floats;
+const GrowingVectorMemory<LinearAlgebra::distributed::Vector<double>> pool_of_doubles;
 /**
  * Runs of the primal path use MPI, which knows no threads: one at a time. These end with the process, after all that Python
  * has and before what they depend on.
@@ -246,6 +252,7 @@ MeshArrays RunOf<dim>::mesh() const
       mesh.cells.push_back(vertex->second);
     }
     mesh.degrees.push_back(cell->get_fe().degree);
+    mesh.bodies.push_back(body_of<dim>(scene.geometry, cell));
   }
   return mesh;
 }

@@ -78,7 +78,7 @@ using Size = py::ssize_t;
 struct Mesh
 {
   py::array_t<double> vertices;
-  py::array_t<long> cells, degrees;
+  py::array_t<long> cells, degrees, bodies;
 };
 
 Mesh mesh_of(const Result &result)
@@ -86,7 +86,8 @@ Mesh mesh_of(const Result &result)
   const MeshArrays mesh = result.mesh();
   const Size dim = result.dimension(), n = mesh.degrees.size();
   return {array(mesh.vertices, {static_cast<Size>(mesh.vertices.size()) / dim, dim}),
-          array(mesh.cells, {n, Size(1) << dim}), array(mesh.degrees, {n})};
+          array(mesh.cells, {n, Size(1) << dim}), array(mesh.degrees, {n}),
+          array(mesh.bodies, {n})};
 }
 
 /** The values of points, or a ValueError that says which bodies there are. */
@@ -161,7 +162,8 @@ void add_result(py::module_ &module)
       .def_readonly("vertices", &Mesh::vertices, "Coordinates, a row each.")
       .def_readonly("cells", &Mesh::cells,
                     "Vertices of each cell, counterclockwise; in space as VTK counts.")
-      .def_readonly("degrees", &Mesh::degrees, "Polynomial degree of each cell.");
+      .def_readonly("degrees", &Mesh::degrees, "Polynomial degree of each cell.")
+      .def_readonly("bodies", &Mesh::bodies, "Number of the body of each cell, 0 the first.");
   const std::vector<Size> tensor{3, 3};
   py::class_<Result, std::shared_ptr<Result>>(module, "Result",
                                               "The steps of a run, and the solution of the last "

@@ -80,6 +80,17 @@ class Plots(unittest.TestCase):
             x = vtk_to_numpy(grid.GetPoints().GetData())[:, :d]
             np.testing.assert_allclose(result.u(x[5:50:7]), shown["displacement"][5:50:7, :d], atol=1e-12)
 
+    def test_bodies_of_cells(self):
+        """In the order of the scene, in memory and in files, in the plane and in space."""
+        for name in ("blocks", "spheres"):
+            with tempfile.TemporaryDirectory() as home:
+                result = scene(name).solve(output=home)
+                bodies = result.mesh.bodies
+                np.testing.assert_array_equal(bodies, hpvi.results.Run(home).mesh.bodies)
+                middles = result.grid(3)["x"].mean(axis=tuple(range(1, result.dimension + 1)))
+                np.testing.assert_array_equal(bodies, middles[:, 1] > 0 if name == "blocks" else middles[:, 1] < 0)
+        self.assertEqual(set(scene("han-6-12").solve().mesh.bodies), {0})
+
     def test_axes_of_others(self):
         figure, axes = plt.subplots()
         self.assertIs(scene("han-6-12").solve().plot("convergence", axes), figure)

@@ -5,12 +5,15 @@ import base64
 import functools
 import importlib.util
 import itertools
+import os
 import pathlib
 import re
+import shutil
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+from unittest import mock
 
 from runs import PROGRAM, SCENES, command, run_program
 
@@ -24,9 +27,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from crowded import watched  # noqa: E402
-from hpvi import plot, report, results, words  # noqa: E402
+from hpvi import plot, render, report, results, space, words  # noqa: E402
 from hpvi.scene import MATERIALS  # noqa: E402
 
+HAS_VTK = bool(importlib.util.find_spec("vtkmodules") and shutil.which("Xvfb"))
 FEW = ("Adaptivity/Maximum steps=3", "Error/Bound=last step")
 TWO_FEET = """set Title = two feet
 subsection Geometry
@@ -160,6 +164,97 @@ class Charts(unittest.TestCase):
         text, n_pictures = page_of(run)
         self.assertIn("No picture of the scene: there is no scene.json; hpvi --report writes it", text)
         self.assertGreaterEqual(n_pictures, 4)
+
+    def test_bodies_that_touch(self):
+        """Blocks of 2 mm: where they touch both have faces, and across it they are drawn apart, the upper one upwards."""
+        run = solve("spheres", "Adaptivity/Maximum steps=2")
+        x, bodies = run.grid(5)["x"], run.mesh.bodies
+        faces, names = plot.outer_faces(x, bodies)
+        np.testing.assert_array_equal(plot.on_faces(x, names), faces)
+        for body in (0, 1):
+            own = faces[bodies[names[:, 0]] == body]
+            sides = np.linalg.norm(np.cross(own[:, -1, 0] - own[:, 0, 0], own[:, 0, -1] - own[:, 0, 0]), axis=1)
+            self.assertAlmostEqual(sides.sum(), 24, places=5)
+            self.assertTrue((own[..., 1] * (1 - 2 * body) > -1e-9).all())
+        upper, lower = plot.apart(run, faces, bodies[names[:, 0]])
+        np.testing.assert_allclose(upper - lower, (0, 0.75 * np.ptp(run.contact["x"]), 0), atol=1e-9)
+        self.assertTrue(1 < (upper - lower)[1] < 1.5)
+        np.testing.assert_array_equal(plot.apart(solve("slab", "Adaptivity/Maximum steps=2"), *2 * [np.zeros(4, int)]), np.zeros((1, 3)))
+
+    def test_what_vtk_is_asked_for(self):
+        """Both views of all of the surface at its displaced places, bodies apart; words name the factor, the field with its unit, and the views."""
+        run, asked = solve("spheres", "Adaptivity/Maximum steps=2"), []
+
+        def images(*arguments):
+            asked.append(arguments)
+            return [np.full((40, 30, 3), 128, np.uint8)] * 2
+
+        with mock.patch.object(render, "images", images), watched() as crowded:
+            axes, (remark,) = drawn(plot.body, run, scale=7)
+            text, _ = plot.svg(plot.body, run, size=(4.6, 4))
+            shown = page_of.__wrapped__(run)[0]
+        moved, values, limit, colours, views = asked[0]
+        cells = run.grid(plot.PER_CELL)
+        stress = results.von_mises(cells["stress"])
+        self.assertEqual((values.max() <= stress.max(), 0 < limit <= values.max(), len(colours)), (True, True, 256))
+        self.assertEqual([axes.get_title(), axes.images[0].get_array().shape], ["displacement 7 times", (40, 30, 3)])
+        faces, names = plot.outer_faces(cells["x"], run.mesh.bodies)
+        shifts = moved - faces - 7 * plot.on_faces(cells["u"], names)  # of each body one
+        for body in (0, 1):
+            self.assertLess(np.ptp(shifts[run.mesh.bodies[names[:, 0]] == body].reshape(-1, 3), axis=0).max(), 1e-9)
+        self.assertGreater(np.ptp(shifts[..., 1]), 1)
+        for (view, (low, high)), way in zip(views, (-1, 1)):
+            self.assertEqual(np.sign(np.cross(*view)[1]), way)
+            flat = moved.reshape(-1, 3) @ view.T
+            self.assertTrue((low < flat.min(axis=0)).all() and (high > flat.max(axis=0)).all() and (high - low < 1.1 * np.ptp(flat, axis=0).max()).all())
+        self.assertEqual(remark, "von Mises stress [N/mm²] on the deformed body, displacement 7 times as large, seen from below and from above, bodies drawn apart")
+        self.assertRegex(shown, r"Von Mises stress \[N/mm²\] on the deformed body, displacement \d+ times as large, seen from below and from above")
+        self.assertNotIn("install", shown)
+        self.assertEqual({text.get_text() for text in axes.texts} - {""}, {"x", "y", "z", "from below", "from above"})
+        self.assertEqual([one.get_ylabel() for one in axes.figure.axes[1:]], ["von Mises stress [N/mm²]"])
+        self.assertEqual(crowded, [])
+        self.assertEqual(text.count("<image"), 3)  # two views and the colours of the bar, each for itself
+
+    def test_without_vtk(self):
+        """The picture of matplotlib, and one line that says what to install, of a body in space alone."""
+        with mock.patch.object(importlib.util, "find_spec", lambda name: None):
+            shown, n_pictures = page_of.__wrapped__(solve("slab", "Adaptivity/Maximum steps=2"))
+            self.assertEqual(shown.count("seen from below; VTK draws it from two sides: install python3-vtk9 and xvfb.</figcaption>"), 1)
+            self.assertGreaterEqual(n_pictures, 4)
+            self.assertNotIn("install", page_of.__wrapped__(solve("two feet"))[0])
+
+    @unittest.skipUnless(HAS_VTK, "python3-vtk9 or xvfb is not installed")
+    def test_a_picture_by_vtk(self):
+        """A cube with stress on its upper face alone, which one of the two views has; and of a run a picture of many colours."""
+        t = np.linspace(0, 1, 5)
+        x = np.stack(np.meshgrid(t, t, t, indexing="ij"), axis=-1)[None]
+        faces, _ = plot.outer_faces(x, np.zeros(1, int))
+        values = np.where(faces[:, 1:2, 1:2, 1] == 1, 1., 0.) * np.ones((6, 5, 5))
+        windows = [np.stack([end((faces @ view.T).reshape(-1, 2), axis=0) for end in (np.min, np.max)]) for view in (space.BELOW, space.ABOVE)]
+        below, above = render.images(faces, values, 1, np.array([(0, 0, 1), (1, 0, 0)]), list(zip((space.BELOW, space.ABOVE), windows)))
+        for image, red, (low, high) in ((below, 0, windows[0]), (above, 0.15, windows[1])):
+            self.assertEqual(max(image.shape[:2]), render.PIXELS)
+            self.assertAlmostEqual(image.shape[1] / image.shape[0], *(high - low)[:1] / (high - low)[1:], delta=0.01)
+            is_red, is_white = (image[..., 0] > 1.5 * image[..., 2].astype(float)), (image == 255).all(axis=-1)
+            self.assertTrue(red <= is_red.mean() < red + 0.1 and 0.1 < is_white.mean() < 0.5, (is_red.mean(), is_white.mean()))
+        self.assertTrue((above[..., 0] > above[..., 2])[:450].any() and not (above[..., 0] > above[..., 2])[600:].any())  # up is up
+        axes, remarks = drawn(plot.body, solve("slab", "Adaptivity/Maximum steps=2"))
+        self.assertIn("from above", remarks[0])
+        for image in axes.images:
+            self.assertGreater(len(np.unique(image.get_array().reshape(-1, 3), axis=0)), 200)
+
+    @unittest.skipUnless(HAS_VTK, "python3-vtk9 or xvfb is not installed")
+    def test_vtk_that_fails(self):
+        """In a process of its own: this one goes on, with a line that has the remedy."""
+        run = solve("slab", "Adaptivity/Maximum steps=2")
+        with mock.patch.object(render.shutil, "which", lambda name: None), mock.patch.dict(os.environ, {"DISPLAY": ":987"}):
+            self.assertEqual(drawn(plot.body, run)[1][1], "VTK draws it from two sides: VTK finds no display; install xvfb")
+        with mock.patch.object(render, "__file__", "/dev/null"):
+            self.assertRegex(drawn(plot.body, run)[1][1], "VTK failed .*; install python3-vtk9 anew")
+        with mock.patch.object(render.sys, "executable", "/none"):
+            self.assertRegex(drawn(plot.body, run)[1][1], "VTK cannot be run .*; install python3-vtk9 anew")
+        with mock.patch.object(render, "SECONDS", 0.01):
+            self.assertRegex(drawn(plot.body, run)[1][1], "VTK took more than .* take a smaller run")
 
     def test_colours_are_told_apart_without_red_or_green(self):
         def seen(colour, blindness):

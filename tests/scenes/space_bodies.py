@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from runs import PROGRAM as HPVI, SCENES
+from runs import PROGRAM as HPVI, SCENES, read_vtu
 
 PART, MPIRUN = sys.argv[1:]  # runs.py has taken the program
 # A block with E = 10 on one with E = 20, both between planes of symmetry, pressed together by an interference of 0.01:
@@ -285,6 +285,16 @@ def check_pressure(scratch):
         expect(largest(points, "normal_traction", -0.1) < tolerance, name, largest(points, "normal_traction", -0.1))
         expect(float(row["estimate_relative"]) < 1e-9, name, "estimate", row["estimate_relative"])
         expect(summary["balance"]["force"] < 1e-11, name, summary["balance"])
+        check_bodies_of_cells(scratch / "out")
+
+
+def check_bodies_of_cells(out):
+    """In all pieces of a file: 0 is the upper one."""
+    for path in out.glob("solution-*.vtu"):
+        grid = read_vtu(path)
+        expect(len(grid["body"]) == len(grid["cells"]) > 0, path.name)
+        for cell, body in zip(grid["cells"], grid["body"]):
+            expect(body == (max(grid["points"][k][1] for k in cell) < 1.001), path.name, body)
 
 
 def check_friction(scratch):

@@ -20,6 +20,7 @@ struct MeshArrays
   std::vector<double> vertices; ///< x, y[, z], one after the other
   std::vector<long> cells;      ///< vertices of each cell: counterclockwise, in space as VTK counts
   std::vector<long> degrees;    ///< p of each cell
+  std::vector<long> bodies;     ///< of each cell, in the order of the scene; 0 where there is one
 };
 
 /** Places, and what the discrete solution is there; NaN outside the body. */

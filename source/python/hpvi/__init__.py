@@ -7,7 +7,7 @@ hpvi.results reads a directory of results, hpvi.plot draws it and Results, hpvi.
 """
 import importlib
 
-PARTS = ("benchmarks", "plot", "report", "results", "space", "words")
+PARTS = ("benchmarks", "plot", "render", "report", "results", "space", "words")
 
 
 def __getattr__(name):

@@ -15,17 +15,18 @@ import numpy as np
 
 try:
     from matplotlib import pyplot
+    from matplotlib.cm import ScalarMappable
     from matplotlib.collections import LineCollection, PolyCollection
-    from matplotlib.colors import BoundaryNorm, ListedColormap
+    from matplotlib.colors import BoundaryNorm, ListedColormap, Normalize
     from matplotlib.lines import Line2D
     from matplotlib.ticker import MaxNLocator, NullFormatter
 except ImportError:
     raise ImportError("pictures need matplotlib; install python3-matplotlib") from None
 
-from . import results
+from . import render, results
 from .results import label, usual, von_mises
 from .scene import scene
-from .space import BELOW as PAPER, corners
+from .space import ABOVE, BELOW as PAPER, corners
 from .words import digits, one_digit
 
 STATES = {"open": "#999999", "slip": "#d55e00", "stick": "#56b4e9"}
@@ -35,7 +36,7 @@ ERRORS = {"error_bound_relative": ("guaranteed bound", BLUE, "o-"), "estimate_eq
           "estimate_relative": ("indicator, no bound", ORANGE, "^--"), "error_relative": ("true error", BLACK, "D:")}
 STYLE = {"font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "xtick.labelsize": 9, "ytick.labelsize": 9, "legend.fontsize": 9, "legend.frameon": False,
          "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "hpvi", "figure.facecolor": "white", "axes.axisbelow": True,
-         "axes.formatter.useoffset": False}
+         "axes.formatter.useoffset": False, "image.composite_image": False}  # joined images have a grey rim
 BELOW = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 3.9}  # a legend
 PER_CELL = 5  # points a direction and cell; quarters of edges tell which cells are neighbours
 
@@ -107,10 +108,10 @@ def round_scale(displacement, x):
     return max(1., one_digit(size / (12 * largest)))
 
 
-def in_words(scale, end=""):
+def in_words(scale, end="", name="von Mises stress"):
     """Title and remark of a deformed body."""
     return (("deformed body" if scale == 1 else f"displacement {scale:g} times") + end,
-            f"von Mises stress on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}{end}")
+            f"{name} on the deformed body, displacement {'true to scale' if scale == 1 else f'{scale:g} times as large'}{end}")
 
 
 def edges(x):
@@ -120,14 +121,15 @@ def edges(x):
 
 def keys(x, low, size):
     """Whole numbers for places, the same for places that are the same to 1e-10 of the size: no place of a bisected mesh lies where two meet."""
-    return np.floor(1e9 * (x - low) / size + 0.317).astype(np.int64)
+    whole = np.floor(1e9 * (x - low) / size + 0.317).astype(np.int64)
+    return whole @ np.array([1, 0x1000193, 0x5851F42D4C957F2D])[:x.shape[-1]]  # one number of each is sorted faster than three
 
 
 def on_boundary(middles, points, low, size):
     """Which of the middles of edges or faces are at no place of another cell: points, all places at which cells tell of themselves."""
     flat = keys(points.reshape(-1, points.shape[-1]), low, size)
-    _, number, count = np.unique(np.concatenate([flat, keys(middles, low, size)]), axis=0, return_inverse=True, return_counts=True)
-    return count[number.ravel()[len(flat):]] <= 2  # once among the points, once among the middles
+    _, number, count = np.unique(np.concatenate([flat, keys(middles, low, size)]), return_inverse=True, return_counts=True)
+    return count[number[len(flat):]] <= 2  # once among the points, once among the middles
 
 
 def outline(x):
@@ -266,31 +268,67 @@ def mesh(result, axes, is_moved=False, window=None):
 # ------------------------------------------------------------------ in space
 
 
+def outer_faces(x, bodies):
+    """Of cells (cells, n, n, n, 3) the faces (faces, n, n, 3) that no other cell of their body has, and of each (cell, axis, end)."""
+    m, low, size = x.shape[1] // 2, x.reshape(-1, 3).min(axis=0), np.ptp(x)
+    faces, names = [], []
+    for body in np.unique(bodies):
+        own = np.flatnonzero(bodies == body)
+        sides = np.concatenate([np.take(x[own], end, axis=axis + 1) for axis in range(3) for end in (0, -1)])
+        kept = on_boundary(sides[:, m, m], sides, low, size)
+        faces.append(sides[kept])
+        names.append(np.array([(cell, axis, end) for axis in range(3) for end in (0, -1) for cell in own])[kept])
+    return np.concatenate(faces), np.concatenate(names)
+
+
+def on_faces(values, names):
+    """Of values (cells, n, n, n, ...) those on faces."""
+    return np.stack([np.take(values[cell], end, axis=axis) for cell, axis, end in names])
+
+
 def faces_in_view(x):
-    """Those of the surface that look to the viewer, farthest first: (cell, axis, end) each."""
-    low, size, m = x.reshape(-1, 3).min(axis=0), np.ptp(x), x.shape[1] // 2
-    viewer, places, middles, names, depths = np.cross(*PAPER), [], [], [], []
-    centre = x[:, m, m, m]
-    for axis in range(3):
-        for end in (0, -1):
-            face = np.take(x, end, axis=axis + 1)
-            places.append(face.reshape(-1, 3))
-            a, b, c = face[:, 0, 0], face[:, 0, -1], face[:, -1, 0]
-            normal = np.cross(b - a, c - a)
-            normal *= np.sign(((face[:, m, m] - centre) * normal).sum(axis=1))[:, None]
-            seen = np.flatnonzero(normal @ viewer > 1e-9 * np.linalg.norm(normal, axis=1))
-            middles.append(face[seen, m, m])
-            names += [(cell, axis, end) for cell in seen]
-    middles = np.concatenate(middles)
-    kept = np.flatnonzero(on_boundary(middles, np.concatenate(places), low, size))
-    depths = middles[kept] @ viewer
-    return [names[k] for k in kept[np.argsort(depths)]]
+    """(cell, axis, end) of those of the surface that look to the viewer, farthest first; none where bodies touch."""
+    faces, names = outer_faces(x, np.zeros(len(x), int))
+    viewer, m = np.cross(*PAPER), x.shape[1] // 2
+    normals = np.cross(faces[:, 0, -1] - faces[:, 0, 0], faces[:, -1, 0] - faces[:, 0, 0])
+    normals *= np.sign(((faces[:, m, m] - x[names[:, 0], m, m, m]) * normals).sum(axis=1))[:, None]
+    seen = np.flatnonzero(normals @ viewer > 1e-9 * np.linalg.norm(normals, axis=1))
+    return names[seen[np.argsort(faces[seen, m, m] @ viewer)]]
+
+
+def apart(result, faces, bodies):
+    """How far each body is drawn away from those that it touches (bodies, 3) [length]: across a contact, by three quarters of its width.
+    faces (faces, n, n, 3), of bodies (faces,)."""
+    n, columns, ways, lengths = bodies.max() + 1, result.contact, [], []
+    for rows in contacts_of_bodies(columns) if n > 1 else []:
+        x = np.stack([columns[axis][rows] for axis in "xyz"], axis=1)
+        some = x[::1 + len(x) // 40]
+        far = [np.mean([np.linalg.norm(own - place, axis=1).min() for place in some]) for own in (faces[bodies == k].reshape(-1, 3) for k in range(n))]
+        one, other = np.argsort(far, kind="stable")[:2]
+        squares, axes = np.linalg.eigh(np.cov(x.T))
+        if squares[0] > 0.1 * squares[1]:  # as around a shaft
+            continue
+        way = axes[:, 0] * 0.75 * np.sort(np.ptp(x, axis=0))[1]
+        towards = (faces[bodies == one].mean(axis=(0, 1, 2)) - faces[bodies == other].mean(axis=(0, 1, 2))) @ way
+        ways.append(np.eye(n)[one] - np.eye(n)[other])
+        lengths.append(way if towards > 0 else -way)
+    return np.linalg.lstsq(np.array(ways), np.array(lengths), rcond=None)[0] if ways else np.zeros((n, 3))
+
+
+def contacts_of_bodies(columns):
+    """Numbers of the rows of each contact of two bodies."""
+    return [rows for rows in results.contacts(columns).values() if "master" in columns and str(columns["master"][rows[0]]) and len(rows) > 2]
 
 
 def body_in_space(result, axes, scale=None):
+    """By VTK from below and from above, bodies that touch drawn apart; where it is not there from below."""
     cells = result.grid(PER_CELL)
     x, u, stress = cells["x"], cells["u"], von_mises(cells["stress"])
     scale = round_scale(u, x) if scale is None else scale
+    try:
+        return in_light(result, axes, scale, cells, stress)
+    except render.NotDrawn as problem:
+        missing = str(problem)
     quads, values = [], []
     for cell, axis, end in faces_in_view(x):
         flat = np.take(x[cell] + scale * u[cell], end, axis=axis) @ PAPER.T
@@ -309,7 +347,48 @@ def body_in_space(result, axes, scale=None):
     title, remark = in_words(scale, ", seen from below")
     axes.set_title(title)
     bar(axes, surface, label("von Mises stress", result.stress_unit, "stress"), values.max() > limit)
-    return [remark]
+    return [remark, f"VTK draws it from two sides: {missing}"]
+
+
+def in_light(result, axes, scale, cells, stress):
+    """The surface by VTK, from below and from above. Raises NotDrawn."""
+    faces, names = outer_faces(cells["x"], result.mesh.bodies)
+    bodies, values = result.mesh.bodies[names[:, 0]], on_faces(stress, names)
+    shifts = apart(result, faces, bodies)
+    moved = faces + scale * on_faces(cells["u"], names) + shifts[bodies][:, None, None]
+    limit, windows = usual(values.ravel(), np.ones(values.size)), []
+    for view in (PAPER, ABOVE):
+        flat = moved.reshape(-1, 3) @ view.T
+        margin = 0.02 * np.ptp(flat, axis=0).max()
+        windows.append(np.stack([flat.min(axis=0) - margin, flat.max(axis=0) + margin]))
+    colours = ScalarMappable(Normalize(0, limit or 1), "viridis")
+    images = render.images(moved, values, limit or 1, colours.to_rgba(np.linspace(0, limit or 1, 256))[:, :3], list(zip((PAPER, ABOVE), windows)))
+    show_views(axes, images, windows)
+    words = label("von Mises stress", result.stress_unit, "stress")
+    title, remark = in_words(scale, name=words)
+    axes.set_title(title)
+    bar(axes, colours, words, values.max() > limit)
+    return [f"{remark}, seen from below and from above" + (", bodies drawn apart" if shifts.any() else "")]
+
+
+def show_views(axes, images, windows):
+    """Those from below and from above side by side, flat ones one above the other, each with its words above it and x, y and z below it."""
+    (wide, high), (next_wide, next_high) = (np.diff(window, axis=0)[0] for window in windows)
+    unit = 0.05 * max(wide, next_wide, high, next_high)
+    is_flat = wide > 2.5 * high
+    shift = np.array((0, high + 9 * unit) if is_flat else (wide + 2 * unit, 0))
+    for image, (low, end), view, words, corner in zip(images, windows, (PAPER, ABOVE), ("from below", "from above"), (0 * shift, shift)):
+        right, top = corner + end - low
+        axes.imshow(image, extent=(corner[0], right, corner[1], top))
+        axes.text((corner[0] + right) / 2, top + unit / 4, words, ha="center", va="bottom", color=GREY)
+        origin = corner + (1.7 * unit, -4.5 * unit)
+        for name, way in zip("xyz", view.T):
+            axes.annotate("", origin + 2 * unit * way, origin, arrowprops={"arrowstyle": "->", "color": GREY, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0})
+            axes.annotate(name, origin + 2 * unit * way, 6 * way / np.hypot(*way), textcoords="offset points", ha="center", va="center", fontsize=8, color=GREY,
+                          annotation_clip=False)
+    end = np.maximum((wide, high), shift + (next_wide, next_high))
+    axes.set(aspect="equal", xlim=(0, end[0]), ylim=(-6 * unit, end[1] + 2 * unit))
+    axes.set_axis_off()
 
 
 def name_edges(axes, x, drawn):

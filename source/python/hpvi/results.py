@@ -22,7 +22,7 @@ import numpy as np
 WORDS = {"state", "boundary", "contact", "master", "name", "kind", "transitions", "stopped_by", "bound_kind", "coulomb_method"}
 PROBED = ("ux", "uy", "uz", "s1", "s2", "s3", "szz", "mises")  # a probe's columns end so
 
-Mesh = namedtuple("Mesh", "vertices cells degrees")
+Mesh = namedtuple("Mesh", "vertices cells degrees bodies")
 
 
 class RunError(ValueError):
@@ -351,12 +351,13 @@ class Run:
 
     @functools.cached_property
     def mesh(self):
-        """vertices, a row each; cells by their first and last ones; degrees."""
+        """vertices, a row each; cells by their first and last ones; degrees; numbers of bodies."""
         corners = self.by_cell("points", 2)[..., :self.dimension]
         n = len(corners)
         order = [0, 2, 3, 1] if self.dimension == 2 else [0, 4, 6, 2, 1, 5, 7, 3]
         cells = np.arange(n * len(order)).reshape(n, -1)[:, order]
-        return Mesh(corners.reshape(-1, self.dimension), cells, self.by_cells("degree").astype(int))
+        bodies = self.by_cells("body").astype(int) if all("body" in vtu for vtu in self.pieces) else np.zeros(n, int)
+        return Mesh(corners.reshape(-1, self.dimension), cells, self.by_cells("degree").astype(int), bodies)
 
     @functools.cached_property
     def lines(self):
