@@ -150,7 +150,7 @@ std::vector<ContactVector<3>> BoxBound::couplings(const std::vector<bool> &zones
     const auto axes = tangents<3>(face.face);
     const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
     const Point<3> corner = map_of<3>(face.cell).point(Point<3>());
-    for (unsigned int i = 0; i < space.tables.n_contact_dofs(); ++i)
+    for (unsigned int i = 0; i < space.tables.only().n_contact_dofs(); ++i)
     {
       const Point<3> x = space.contact[face.friction + i].x;
       const auto a = bernstein(p, (x - corner)[axes[0]] / size[axes[0]]),
@@ -386,7 +386,7 @@ std::vector<double> BoxBound::heights_of(const std::vector<std::vector<double>> 
 /** |v|_a of nodal values. */
 double BoxBound::energy_norm(const DistributedVector &of_vector) const
 {
-  Vector<double> local(space.tables.fe.dofs_per_cell), internal(local);
+  Vector<double> local(space.tables.only().fe.dofs_per_cell), internal(local);
   double square = 0;
   for (const Cell &cell : cells)
   {
@@ -488,7 +488,7 @@ double BoxBound::coupled_bound(ErrorBound &result, const std::vector<bool> &zone
     return infinity;
   std::vector<bool> sticks(space.contact.size());
   for (unsigned int k = 0; k < zones.size(); ++k)
-    for (unsigned int i = 0; zones[k] && i < space.tables.n_contact_dofs(); ++i)
+    for (unsigned int i = 0; zones[k] && i < space.tables.only().n_contact_dofs(); ++i)
       sticks[space.faces[k].friction + i] = true;
   result.coupling = std::max(closed_forms(zones),
                              margin * friction_coupling(space, matrix, couplings(zones), sticks));

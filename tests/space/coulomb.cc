@@ -412,7 +412,7 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
           DistributedVector u = solution;
           std::vector<ContactVector<3>> lambda(space.contact.size());
           for (const ContactDofFace<3> &face : space.faces)
-            for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+            for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
             {
               const double angle = 3 * any(random);
               lambda[face.friction + k] = ContactVector<3>({std::cos(angle), std::sin(angle)});
@@ -484,7 +484,7 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
               const Point<3> unit(gauss[q % 12], 0, gauss[q / 12]);
               Tensor<1, 3> U;
               for (unsigned int i = 0; i < field.size(); ++i)
-                U += space.tables.fe.shape_value(space.tables.numbers[i][1], unit) *
+                U += space.tables.only().fe.shape_value(space.tables.only().numbers[i][1], unit) *
                      (field[i] - of_w[i]);
               const BoundaryCondition<3> &condition = space.condition(face.cell, face.face);
               const double u_0 = condition.gap->value(map.point(unit)),
