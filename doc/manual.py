@@ -37,7 +37,7 @@ EXAMPLES = {
     ("Geometry", "Length unit"): "cm", ("Geometry", "Mesh size"): "0.4", ("Geometry", "Mesh size from curvature"): "16",
     ("Material", "Thickness"): "0.25", ("Boundary NAME", "Shear"): "0.1*x",
     ("Boundary NAME", "Contact direction"): "0.1; -1",
-    ("Body NAME", "Surfaces"): "liner, shell", ("Contact NAME", "Friction law"): "limited",
+    ("Body NAME", "Surfaces"): "liner, shell", ("Body NAME", "Start degree"): "4", ("Contact NAME", "Friction law"): "limited",
     ("Contact NAME", "Gap"): "0.1*x^2", ("Contact NAME", "Closed within"): "0.001", ("Contact NAME", "Friction coefficient"): "0.3", ("Contact NAME", "Slave"): "lower.top",
     ("Boundary NAME", "Wear coefficient"): "1e-9",
     ("Material", "Initial strain"): "0.001; 0; 0", ("Boundary NAME", "Moment"): "2.5",
@@ -201,6 +201,8 @@ def check_example(program, key, value):
         scene, name = ROOT / f"tests/bad_input/{SHAPES[key[1]]}.prm", "inside"
         if key[1] == "Part":
             beside["Geometry/Centre"] = "0, 0"
+    if key == ("Body NAME", "Start degree"):
+        scene, name = ROOT / "prm/clamped-plates.prm", "washer"
     if key[0] == "Contact NAME":
         scene, name = ROOT / "prm/blocks.prm", "joint"
         if key[1] == "Friction coefficient":

@@ -62,8 +62,11 @@ double expected_bytes(const PrimalSpace<dim> &space)
   const double share = double(space.owned.n_elements()) / space.dof_handler.n_dofs();
   if (linear_method(space) == LinearMethod::multigrid)
     return 520. * space.owned.n_elements() + 7500. * share * mesh.n_global_coarse_cells();
-  const double n_cells = mesh.n_global_active_cells() * share, n = space.tables.fe.dofs_per_cell;
-  return 19 * n_cells * n * n;
+  double entries = 0;
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+      entries += std::pow(space.tables.of(cell).fe.dofs_per_cell, 2);
+  return 19 * entries;
 }
 
 template <int dim>
@@ -106,8 +109,7 @@ constexpr double round_off = 1e-11;
 template <int dim>
 PrimalBackend<dim>::PrimalBackend(const Scene<dim> &scene, MPI_Comm communicator,
                                   std::shared_ptr<typename PrimalSpace<dim>::Mesh> all_cells)
-    : Backend<dim>(scene, communicator), mesh(std::move(all_cells)),
-      tables(scene.adaptivity.start_degree)
+    : Backend<dim>(scene, communicator), mesh(std::move(all_cells)), tables(scene)
 {
 }
 
@@ -301,8 +303,7 @@ ProblemSize PrimalBackend<dim>::size() const
                      space->n_free,
                      space->n_multipliers(),
                      {}};
-  result.cells_of_degree.assign(tables.degree + 1, 0);
-  result.cells_of_degree.back() = result.n_cells;
+  result.count(degrees());
   return result;
 }
 
@@ -363,7 +364,7 @@ BoundOfStep PrimalBackend<dim>::bound(double)
   return result;
 }
 
-/** One degree stays: nobody asks. */
+/** Degrees stay: nobody asks. */
 template <int dim>
 double PrimalBackend<dim>::decay_rate(unsigned int) const
 {
@@ -423,7 +424,15 @@ Warnings PrimalBackend<dim>::warnings(const std::vector<ContactState<dim>> &,
 template <int dim>
 Degrees PrimalBackend<dim>::degrees() const
 {
-  return Degrees(mesh->n_global_active_cells(), tables.degree);
+  if (tables.all.size() == 1)
+    return Degrees(mesh->n_global_active_cells(), tables.only().degree);
+  const auto ranks = global_cell_indices(static_cast<const Triangulation<dim> &>(*mesh));
+  Degrees own(mesh->n_global_active_cells(), 0), result(own.size());
+  for (const auto &cell : mesh->active_cell_iterators())
+    if (cell->is_locally_owned())
+      own[ranks[cell->active_cell_index()]] = tables.of(cell).degree;
+  Utilities::MPI::max(own, this->communicator, result);
+  return result;
 }
 
 // The solution goes to the new mesh at once: there it is where the next one starts.

@@ -179,11 +179,13 @@ std::string file_in_words(const Scene<dim> &scene, const std::string &body)
                         : printable(std::filesystem::path(file).filename()) + ", " + origin + ", ";
 }
 
-/** Of several bodies each, as in "body punch: from (0 0) to (1 1) mm, 4 coarse cells, material steel". */
+/** Of several bodies each, as in "body punch: from (0 0) to (1 1) mm, 4 coarse cells, material steel", and its own degree. */
 template <int dim>
 std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &mesh)
 {
   std::string lines;
+  std::vector<unsigned int> own = scene.adaptivity.degrees_of_bodies;
+  own.resize(scene.geometry.bodies.size());
   for (unsigned int b = 0; b < scene.geometry.bodies.size(); ++b)
   {
     std::vector<Point<dim>> vertices;
@@ -200,7 +202,8 @@ std::string bodies_in_words(const Scene<dim> &scene, const Triangulation<dim> &m
     lines += "body " + scene.geometry.bodies[b].name + ": " +
              file_in_words(scene, scene.geometry.bodies[b].name) +
              extent_in_words(BoundingBox<dim>(vertices), scene.length_unit, n) +
-             (n_materials(scene) > 1 ? ", " + name_in_words(scene, material) : "") + "\n";
+             (n_materials(scene) > 1 ? ", " + name_in_words(scene, material) : "") +
+             (own[b] > 0 ? ", degree " + std::to_string(own[b]) : "") + "\n";
   }
   return lines;
 }

@@ -54,6 +54,9 @@ std::vector<Entry> body_entries(const int dim, const std::string &name)
                      "the name of a material or nothing",
                      "The Material NAME of the body; empty: those that say Where they are, and the "
                      "unnamed one."});
+  entries.push_back({"", "Start degree", "0", std::make_shared<Patterns::Integer>(0, 20),
+                     "an integer from 0 to 20",
+                     "Degree in space, 2 to 8; 0: that of Adaptivity/Start degree."});
   for (Entry &entry : entries)
     entry.section = section_of_body(name);
   return entries;
@@ -175,7 +178,12 @@ void read_bodies(const Parameters &parameters, const UserNames &names, Scene<2> 
 {
   std::vector<Scene<2>> singles;
   for (const std::string &name : names.bodies)
+  {
     singles.push_back(single_body<2>(parameters, name));
+    if (parameters.integer(section_of_body(name), "Start degree") > 0)
+      parameters.reject(section_of_body(name), "Start degree",
+                        "is for bodies in space; give Adaptivity/Start degree, or a method of hp");
+  }
   cut_bodies(parameters, names, singles);
   const std::vector<NamedSide> sides = named_sides(parameters, names, singles);
   std::vector<PairSides> pairs;
@@ -202,6 +210,8 @@ void read_bodies(const Parameters &parameters, const UserNames &names, Scene<3> 
   for (const std::string &name : names.bodies)
   {
     singles.push_back(single_body<3>(parameters, name));
+    scene.adaptivity.degrees_of_bodies.push_back(
+        parameters.integer(section_of_body(name), "Start degree"));
     cut_at_materials(parameters, names, name, singles.back());
   }
   std::vector<SpacePair> pairs;

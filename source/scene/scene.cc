@@ -170,6 +170,13 @@ Scene<dim>::Scene() : materials(1)
 }
 
 template <int dim>
+unsigned int Scene<dim>::start_degree_of(const unsigned int body) const
+{
+  const std::vector<unsigned int> &own = adaptivity.degrees_of_bodies;
+  return body < own.size() && own[body] > 0 ? own[body] : adaptivity.start_degree;
+}
+
+template <int dim>
 types::material_id Scene<dim>::material_of_coarse_cell(const Point<dim> &centre,
                                                        const unsigned int cell) const
 {

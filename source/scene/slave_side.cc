@@ -11,10 +11,10 @@ using namespace dealii;
 
 namespace
 {
-/** Faces of the coarse mesh on one part of a pair, and the mean of the moduli behind them. */
+/** Contact dofs of one component that the coarse mesh would have on one part of a pair, and the mean of the moduli behind them. */
 struct PairPart
 {
-  unsigned int n_faces = 0;
+  unsigned int n_contact_dofs = 0;
   double stiffness = 0;
 };
 
@@ -26,7 +26,8 @@ PairPart part_of_pair(const Scene<3> &scene, const BoundaryCondition<3> &boundar
     if (boundary_at(scene, boundary.side, middle_of(face)) == boundary.id)
     {
       const double own = area_of(face.corners);
-      ++result.n_faces;
+      const unsigned int p = scene.start_degree_of(scene.geometry.mesh->cells[face.cell].body);
+      result.n_contact_dofs += (p - 1) * (p - 1);
       area += own;
       result.stiffness +=
           own *
@@ -45,9 +46,10 @@ unsigned int slave_of(const Scene<3> &scene, const ContactPair &pair)
   const std::array<PairPart, 2> parts{{part_of_pair(scene, scene.boundaries[pair.parts[0]]),
                                        part_of_pair(scene, scene.boundaries[pair.parts[1]])}};
   const double ratio = parts[1].stiffness / parts[0].stiffness;
-  if (ratio >= similar || ratio <= 1 / similar || parts[0].n_faces == parts[1].n_faces)
+  if (ratio >= similar || ratio <= 1 / similar ||
+      parts[0].n_contact_dofs == parts[1].n_contact_dofs)
     return ratio < 1 - 1e-12 ? 1 : 0;
-  return parts[1].n_faces > parts[0].n_faces ? 1 : 0;
+  return parts[1].n_contact_dofs > parts[0].n_contact_dofs ? 1 : 0;
 }
 
 std::vector<bool> masters_of(const Scene<3> &scene)

@@ -24,7 +24,7 @@ constexpr double smooth_load = 1e-6; ///< of the square of a load: by what two r
 BoxBound::BoxBound(const PrimalSpace<3> &space, NewtonMatrix<3> &matrix, const DistributedVector &u,
                    const std::vector<ContactVector<3>> &lambda, const double work)
     : space(space), matrix(matrix), u(u), lambda(lambda), work_of_rule(work),
-      p(space.tables.degree), of(p),
+      p(space.tables.only().degree), of(p),
       numbering(FETools::hierarchic_to_lexicographic_numbering<3>(p)), stiffness(space),
       cells(space.dof_handler.get_triangulation().n_active_cells()), moved(cells.size()),
       gaps(cells.size())
@@ -158,7 +158,7 @@ Vector<double> BoxBound::local_load(const unsigned int k) const
     }
     const BoxModes of_nodes = along_axes(of.modes_transposed, work, 3);
     for (unsigned int i = 0; i < n_shapes; ++i)
-      result[space.tables.numbers[i][c]] = of_nodes[numbering[i]];
+      result[space.tables.only().numbers[i][c]] = of_nodes[numbering[i]];
   }
   return result;
 }
@@ -167,7 +167,7 @@ Vector<double> BoxBound::local_load(const unsigned int k) const
 DistributedVector BoxBound::balanced()
 {
   DistributedVector b = space.owned_vector(), x = b;
-  Vector<double> F(space.tables.fe.dofs_per_cell), displacement(F), internal(F);
+  Vector<double> F(space.tables.only().fe.dofs_per_cell), displacement(F), internal(F);
   std::vector<types::global_dof_index> dofs(F.size());
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
@@ -203,7 +203,7 @@ ErrorBound BoxBound::compute()
     gaps[space.faces[k].cell->active_cell_index()] += face_gaps.back();
   }
   std::vector<Vector<double>> of_near, of_u;
-  Vector<double> local(space.tables.fe.dofs_per_cell), internal(local), of_w(local);
+  Vector<double> local(space.tables.only().fe.dofs_per_cell), internal(local), of_w(local);
   for (unsigned int k = 0; k < cells.size(); ++k)
   {
     of_near.push_back(modes(cells[k], near));

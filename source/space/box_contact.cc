@@ -43,12 +43,12 @@ ContactTractions BoxBound::tractions(const ContactDofFace<3> &face, const BoxStr
   result.has_friction = face.has_friction();
   result.has_pressure = face.has_pressure();
   double area = 0;
-  for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+  for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
     area += space.contact[face.first() + k].area;
   if (face.has_pressure())
   {
     double mean = 0, of_stress = 0;
-    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+    for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
       mean +=
           space.contact[face.pressure + k].area / area * std::max(0., lambda[face.pressure + k][0]);
     BoxModes values = at_gauss(axis);
@@ -67,7 +67,7 @@ ContactTractions BoxBound::tractions(const ContactDofFace<3> &face, const BoxStr
   if (face.has_friction())
   {
     Tensor<1, 2> mean, of_stress;
-    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+    for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
       for (unsigned int s = 0; s < 2; ++s)
         for (unsigned int t = 0; t < 2; ++t)
           mean[t] += space.contact[face.friction + k].area / area * lambda[face.friction + k][s] *

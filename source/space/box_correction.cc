@@ -17,19 +17,20 @@ using namespace dealii;
 std::vector<std::vector<types::global_dof_index>>
 BoxBound::face_dofs(const ContactDofFace<3> &face) const
 {
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs(space.tables.only().fe.dofs_per_cell);
   face.cell->get_dof_indices(dofs);
   std::vector<std::vector<types::global_dof_index>> result(
       3, std::vector<types::global_dof_index>((p + 1) * (p + 1)));
   const auto axes = tangents<3>(face.face);
-  for (unsigned int i = 0; i < space.tables.n_shapes; ++i)
+  for (unsigned int i = 0; i < space.tables.only().n_shapes; ++i)
   {
     const unsigned int number = numbering[i];
     const std::array<unsigned int, 3> place{
         {number % (p + 1), number / (p + 1) % (p + 1), number / ((p + 1) * (p + 1))}};
     if (place[face.face / 2] == (face.face % 2) * p)
       for (unsigned int c = 0; c < 3; ++c)
-        result[c][place[axes[0]] + (p + 1) * place[axes[1]]] = dofs[space.tables.numbers[i][c]];
+        result[c][place[axes[0]] + (p + 1) * place[axes[1]]] =
+            dofs[space.tables.only().numbers[i][c]];
   }
   return result;
 }
@@ -41,7 +42,7 @@ std::vector<bool> BoxBound::held() const
   for (const ContactDofFace<3> &face : space.faces)
   {
     bool presses = true, sticks = true;
-    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+    for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
     {
       presses &= !face.has_pressure() || lambda[face.pressure + k][0] > 0;
       if (!face.has_friction())

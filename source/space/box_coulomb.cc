@@ -151,7 +151,7 @@ std::vector<ContactVector<3>> BoxBound::couplings(const PrimalSpace<3> &at,
     const auto axes = tangents<3>(face.face);
     const Tensor<1, 3> size = PrimalSpace<3>::extent(face.cell);
     const Point<3> corner = map_of<3>(face.cell).point(Point<3>());
-    for (unsigned int i = 0; i < at.tables.n_contact_dofs(); ++i)
+    for (unsigned int i = 0; i < at.tables.only().n_contact_dofs(); ++i)
     {
       const Point<3> x = at.contact[face.friction + i].x;
       const auto a = bernstein(p, (x - corner)[axes[0]] / size[axes[0]]),
@@ -176,13 +176,13 @@ double BoxBound::coupling_of(const unsigned int degree, const std::vector<bool> 
   {
     std::vector<bool> sticks(at.contact.size());
     for (unsigned int k = 0; k < zones.size(); ++k)
-      for (unsigned int i = 0; zones[k] && i < at.tables.n_contact_dofs(); ++i)
+      for (unsigned int i = 0; zones[k] && i < at.tables.only().n_contact_dofs(); ++i)
         sticks[at.faces[k].friction + i] = true;
     return friction_coupling(at, with, couplings(at, zones), sticks);
   };
   if (degree == p)
     return found(space, matrix);
-  const BoxTables<3> tables(degree);
+  const DegreeTables<3> tables(degree);
   const PrimalSpace<3> other(
       space.scene,
       dynamic_cast<const PrimalSpace<3>::Mesh &>(space.dof_handler.get_triangulation()), tables);
@@ -420,7 +420,7 @@ std::vector<double> BoxBound::heights_of(const std::vector<std::vector<double>> 
 /** |v|_a of nodal values. */
 double BoxBound::energy_norm(const DistributedVector &of_vector) const
 {
-  Vector<double> local(space.tables.fe.dofs_per_cell), internal(local);
+  Vector<double> local(space.tables.only().fe.dofs_per_cell), internal(local);
   double square = 0;
   for (const Cell &cell : cells)
   {

@@ -111,7 +111,7 @@ struct BoxEquilibration::Local
 
 BoxEquilibration::BoxEquilibration(const PrimalSpace<3> &space, const std::vector<BoxModes> &forces,
                                    const Sides &sides)
-    : space(space), n(space.tables.degree + 2), m(n - 1), forces(forces), sides(sides),
+    : space(space), n(space.tables.only().degree + 2), m(n - 1), forces(forces), sides(sides),
       cells(space.dof_handler.get_triangulation().n_active_cells())
 {
   for (const auto &cell : space.dof_handler.active_cell_iterators())
@@ -145,7 +145,7 @@ void BoxEquilibration::find_classes()
       ++number;
     if (number == elements.size())
     {
-      elements.push_back(std::make_unique<const BoxStress>(space.tables.degree, size,
+      elements.push_back(std::make_unique<const BoxStress>(space.tables.only().degree, size,
                                                            space.scene.material_of(cell)));
       materials.push_back(cell->material_id());
     }

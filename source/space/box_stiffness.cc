@@ -35,9 +35,9 @@ template <int dim>
 FullMatrix<double> basis_of_moments(const PrimalSpace<dim> &space,
                                     const typename PrimalSpace<dim>::Cell &cell)
 {
-  const BoxTables<dim> &tables = space.tables;
+  const BoxTables<dim> &tables = space.tables.of(cell);
   if (is_straight(space, cell))
-    return space.tables.basis_of_moments(space.moment_components(cell));
+    return tables.basis_of_moments(space.moment_components(cell));
   FullMatrix<double> T = IdentityMatrix(tables.fe.dofs_per_cell);
   const auto add = [&](const ContactDofFace<dim> &face)
   {
@@ -112,7 +112,7 @@ const FullMatrix<double> &BoxStiffness<dim>::of_box(const Cell &cell,
       matrices.try_emplace({size_class(cell), cell->material_id(), components});
   if (is_new)
   {
-    entry->second = space.tables.stiffness(law(cell), PrimalSpace<dim>::extent(cell));
+    entry->second = space.tables.of(cell).stiffness(law(cell), PrimalSpace<dim>::extent(cell));
     if (any(components))
       entry->second = in_basis(entry->second, basis_of_moments(space, cell));
   }
@@ -121,21 +121,22 @@ const FullMatrix<double> &BoxStiffness<dim>::of_box(const Cell &cell,
 
 /** Of an affine cell, made where it is not there and there is room. */
 template <int dim>
-const FullMatrix<double> *BoxStiffness<dim>::known(const CellMap<dim> &map,
-                                                   const types::material_id material) const
+const FullMatrix<double> *BoxStiffness<dim>::known(const Cell &cell, const CellMap<dim> &map) const
 {
   constexpr std::size_t most = 64;
   if (!map.is_affine())
     return nullptr;
   const Tensor<2, dim> edges = map.jacobian({});
+  const types::material_id material = cell->material_id();
+  const BoxTables<dim> &tables = space.tables.of(cell);
   for (const auto &one : parallelepipeds)
-    if (one->material == material && (one->edges - edges).norm() < same_box * edges.norm())
+    if (one->material == material && one->degree == tables.degree &&
+        (one->edges - edges).norm() < same_box * edges.norm())
       return &one->K;
   if (parallelepipeds.size() == most)
     return nullptr;
-  parallelepipeds.push_back(std::make_unique<Parallelepiped>(Parallelepiped{
-      edges, material,
-      space.tables.stiffness(HookesLaw<dim>(space.scene.materials[material]), map)}));
+  parallelepipeds.push_back(std::make_unique<Parallelepiped>(
+      Parallelepiped{edges, material, tables.degree, tables.stiffness(law(cell), map)}));
   return &parallelepipeds.back()->K;
 }
 
@@ -146,9 +147,9 @@ const FullMatrix<double> &BoxStiffness<dim>::of_body(const Cell &cell) const
   if (!space.scene.geometry.has_mesh())
     return of_box(cell, none);
   const CellMap<dim> map = map_of<dim>(cell);
-  if (const Matrix *const K = known(map, cell->material_id()))
+  if (const Matrix *const K = known(cell, map))
     return *K;
-  return last = space.tables.stiffness(law(cell), map);
+  return last = space.tables.of(cell).stiffness(law(cell), map);
 }
 
 template <int dim>
@@ -177,19 +178,20 @@ const FullMatrix<double> &BoxStiffness<dim>::operator()(const Cell &cell) const
 template <int dim>
 std::vector<double> BoxStiffness<dim>::diagonal(const Cell &cell) const
 {
-  std::vector<double> result(space.tables.fe.dofs_per_cell);
+  const BoxTables<dim> &tables = space.tables.of(cell);
+  std::vector<double> result(tables.fe.dofs_per_cell);
   const bool is_box = !space.scene.geometry.has_mesh();
   const CellMap<dim> map = map_of<dim>(cell);
   foundation.add_to_diagonal(result, cell);
-  if (const Matrix *const K = is_box ? &of_box(cell, none) : known(map, cell->material_id()))
+  if (const Matrix *const K = is_box ? &of_box(cell, none) : known(cell, map))
   {
     for (unsigned int i = 0; i < result.size(); ++i)
       result[i] += (*K)(i, i);
     return result;
   }
-  const CellGradients<dim> of_cell(space.tables.cell, map);
+  const CellGradients<dim> of_cell(tables.cell, map);
   const HookesLaw<dim> law = this->law(cell);
-  for (unsigned int i = 0; i < space.tables.n_shapes; ++i)
+  for (unsigned int i = 0; i < tables.n_shapes; ++i)
   {
     Tensor<2, dim> products;
     for (unsigned int q = 0; q < of_cell.volumes.size(); ++q)
@@ -198,7 +200,7 @@ std::vector<double> BoxStiffness<dim>::diagonal(const Cell &cell) const
           products[a][b] +=
               of_cell.volumes[q] * of_cell.gradients[a](q, i) * of_cell.gradients[b](q, i);
     for (unsigned int c = 0; c < dim; ++c)
-      result[space.tables.numbers[i][c]] += law.stiffness(
+      result[tables.numbers[i][c]] += law.stiffness(
           [&](const unsigned int a, const unsigned int b) { return products[a][b]; }, c, c);
   }
   return result;
@@ -211,7 +213,7 @@ void BoxStiffness<dim>::multiply(const Cell &cell, Vector<double> &result,
   multiply_body(cell, result, u);
   if (!foundation.holds(cell))
     return;
-  const auto &numbers = space.tables.numbers;
+  const auto &numbers = space.tables.of(cell).numbers;
   CellField<dim> field(numbers.size());
   for (unsigned int i = 0; i < numbers.size(); ++i)
     for (unsigned int c = 0; c < dim; ++c)
@@ -233,11 +235,11 @@ void BoxStiffness<dim>::multiply_body(const Cell &cell, Vector<double> &result,
   if (!space.scene.geometry.has_mesh())
     return of_box(cell, none).vmult(result, u);
   const CellMap<dim> map = map_of<dim>(cell);
-  if (const Matrix *const K = known(map, cell->material_id()))
+  if (const Matrix *const K = known(cell, map))
     return K->vmult(result, u);
-  const CellGradients<dim> of_cell(space.tables.cell, map);
+  const CellGradients<dim> of_cell(space.tables.of(cell).cell, map);
   const HookesLaw<dim> law = this->law(cell);
-  const auto &numbers = space.tables.numbers;
+  const auto &numbers = space.tables.of(cell).numbers;
   result = 0;
   for (unsigned int q = 0; q < of_cell.volumes.size(); ++q)
   {

@@ -29,7 +29,8 @@ using Weights = std::map<CellBasis::Dof, std::map<unsigned int, double>>;
 void add_opposite(const PrimalSpace<3> &space, const ContactDofFace<3> &face, Weights &weights)
 {
   const FullMatrix<double> &M_inverse = space.contact_dofs_on(face).M_inverse;
-  const unsigned int n = space.tables.n_contact_dofs();
+  const BoxTables<3> &tables = space.tables.of(face.cell);
+  const unsigned int n = tables.n_contact_dofs();
   const auto &rows = (*space.opposite)[&face - space.faces.data()].rows;
   if (face.is_curved())
   {
@@ -41,7 +42,7 @@ void add_opposite(const PrimalSpace<3> &space, const ContactDofFace<3> &face, We
           for (unsigned int j = 0; j < 3 * n; ++j)
             weight += M_inverse(i, j) * row.turned[j][c];
           for (const auto &[unknown, part] : space.opposite->nodes[row.node].entries[c])
-            weights[unknown][space.tables.numbers[space.tables.inner[face.face][i % n]][i / n]] +=
+            weights[unknown][tables.numbers[tables.inner[face.face][i % n]][i / n]] +=
                 part * weight;
         }
     return;
@@ -54,17 +55,16 @@ void add_opposite(const PrimalSpace<3> &space, const ContactDofFace<3> &face, We
         weight += M_inverse(k, j) * row.moments[j];
       for (const unsigned int c : face.components())
         for (const auto &[unknown, part] : space.opposite->nodes[row.node].entries[c])
-          weights[unknown][space.tables.numbers[space.tables.inner[face.face][k]][c]] +=
-              part * weight;
+          weights[unknown][tables.numbers[tables.inner[face.face][k]][c]] += part * weight;
     }
 }
 } // namespace
 
 CellBasis cell_basis(const PrimalSpace<3> &space, const PrimalSpace<3>::Cell &cell)
 {
-  const unsigned int n = space.tables.fe.dofs_per_cell;
-  std::vector<CellBasis::Dof> dofs(n);
-  cell->get_dof_indices(dofs);
+  std::vector<CellBasis::Dof> dofs;
+  space.tables.take_dofs(cell, dofs);
+  const unsigned int n = dofs.size();
   const FullMatrix<double> T = basis_of_moments(space, cell);
   Weights weights;
   const auto add = [&](const CellBasis::Dof unknown, const unsigned int j, const double part)

@@ -2,6 +2,7 @@
 #include <hpvi/space/cell_operator.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/hp/q_collection.h>
 #include <deal.II/matrix_free/fe_evaluation.h>
 #include <deal.II/matrix_free/matrix_free.h>
 
@@ -92,7 +93,7 @@ struct Law<Wide, GeneralStiffness>
   }
 };
 
-template <int degree, typename Number, class Stiffness>
+template <typename Number, class Stiffness>
 class ElasticOperator : public CellOperator<Number>
 {
 public:
@@ -105,7 +106,13 @@ public:
     typename Cells::AdditionalData settings;
     settings.tasks_parallel_scheme = Cells::AdditionalData::none;
     settings.mapping_update_flags = update_gradients | update_JxW_values;
-    cells.reinit(mapping, dof_handler, constraints, QGauss<1>(degree + 1), settings);
+    hp::QCollection<3> rules; // as many as elements
+    for (const FiniteElement<3> &element : dof_handler.get_fe_collection())
+    {
+      degrees.push_back(element.degree);
+      rules.push_back(QGauss<3>(element.degree + 1));
+    }
+    cells.reinit(mapping, dof_handler, constraints, rules, settings);
     const bool is_uniform = stiffness.size() == 1;
     laws.resize(is_uniform ? 1 : cells.n_cell_batches());
     for (unsigned int batch = 0; batch < laws.size(); ++batch)
@@ -140,10 +147,26 @@ private:
   using Cells = MatrixFree<3, Number>;
   using Wide = VectorizedArray<Number>;
 
+  /** Cells of a range have one degree. */
   void add_product(Vector &y, const Vector &x,
                    const std::pair<unsigned int, unsigned int> &range) const
   {
-    FEEvaluation<3, degree, degree + 1, 3, Number> values(cells);
+    switch (degrees[cells.get_cell_active_fe_index(range)])
+    {
+    case 2:
+      return add_product_of<2>(y, x, range);
+    case 3:
+      return add_product_of<3>(y, x, range);
+    default:
+      return add_product_of<4>(y, x, range);
+    }
+  }
+
+  template <int degree>
+  void add_product_of(Vector &y, const Vector &x,
+                      const std::pair<unsigned int, unsigned int> &range) const
+  {
+    FEEvaluation<3, degree, degree + 1, 3, Number> values(cells, range);
     for (unsigned int batch = range.first; batch < range.second; ++batch)
     {
       values.reinit(batch);
@@ -156,6 +179,7 @@ private:
   }
 
   Cells cells;
+  std::vector<unsigned int> degrees;        ///< by element
   AlignedVector<Law<Wide, Stiffness>> laws; ///< by batch of cells; of one material alone: one entry
 };
 } // namespace
@@ -166,20 +190,11 @@ make_cell_operator(const Mapping<3> &mapping, const DoFHandler<3> &dof_handler,
                    const AffineConstraints<Number> &constraints,
                    const std::vector<Stiffness> &stiffness)
 {
-  switch (dof_handler.get_fe().degree)
-  {
-  case 2:
-    return std::make_unique<ElasticOperator<2, Number, Stiffness>>(mapping, dof_handler,
-                                                                   constraints, stiffness);
-  case 3:
-    return std::make_unique<ElasticOperator<3, Number, Stiffness>>(mapping, dof_handler,
-                                                                   constraints, stiffness);
-  case 4:
-    return std::make_unique<ElasticOperator<4, Number, Stiffness>>(mapping, dof_handler,
-                                                                   constraints, stiffness);
-  default:
-    return nullptr;
-  }
+  for (const FiniteElement<3> &element : dof_handler.get_fe_collection())
+    if (!has_cell_operator(element.degree))
+      return nullptr;
+  return std::make_unique<ElasticOperator<Number, Stiffness>>(mapping, dof_handler, constraints,
+                                                              stiffness);
 }
 
 template std::unique_ptr<CellOperator<double>>

@@ -47,13 +47,13 @@ std::vector<Entry> own_entries(const PrimalSpace<3> &space)
   pattern.copy_from(dynamic);
   SparseMatrix<double> matrix(pattern);
   const BoxStiffness<3> stiffness(space);
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && has_opposite(space, cell))
     {
       const FullMatrix<double> &K = stiffness.nodal(cell);
       matrix.add(next->unknowns, next->transformed(K));
-      cell->get_dof_indices(dofs);
+      space.tables.take_dofs(cell, dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (space.constraints.is_constrained(dofs[i]))
           matrix.add(dofs[i], dofs[i], K(i, i));
@@ -61,7 +61,7 @@ std::vector<Entry> own_entries(const PrimalSpace<3> &space)
     }
     else if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
+      space.tables.take_dofs(cell, dofs);
       space.constraints.distribute_local_to_global(stiffness(cell), dofs, matrix);
     }
   std::vector<Entry> result;

@@ -28,7 +28,6 @@ ContactDofTransform<Number>::ContactDofTransform(const PrimalSpace<3> &space, co
     values = &space.opposite->unknowns();
   if (space.faces.empty())
     return;
-  n = space.tables.n_contact_dofs();
   const auto add_matrices = [this](const FaceContactDofs &contact_dofs)
   {
     matrices.emplace_back();
@@ -39,12 +38,13 @@ ContactDofTransform<Number>::ContactDofTransform(const PrimalSpace<3> &space, co
         matrices.back().M_inverse.push_back(contact_dofs.M_inverse(k, j));
       }
   };
-  add_matrices(space.tables.contact_dofs);
+  for (const BoxTables<3> &tables : space.tables.all)
+    add_matrices(tables.contact_dofs);
   for (const ContactDofFace<3> &face : space.faces)
   {
     if (face.own)
       add_matrices(*face.own);
-    add(space, pattern, face, face.own ? matrices.size() - 1 : 0);
+    add(space, pattern, face, face.own ? matrices.size() - 1 : space.tables.number_of(face.cell));
   }
 }
 
@@ -64,7 +64,9 @@ void ContactDofTransform<Number>::add(const PrimalSpace<3> &space, const Vector 
   }
   if (face.axes.is_rotated())
   {
-    turns.push_back({static_cast<unsigned int>(inner.size()), {}});
+    turns.push_back({static_cast<unsigned int>(contact_dofs.M.m()),
+                     static_cast<unsigned int>(inner.size()),
+                     {}});
     for (unsigned int own = 0; own < 3; ++own)
       for (unsigned int c = 0; c < 3; ++c)
         turns.back().directions[own][c] = face.direction(own)[c];
@@ -83,10 +85,9 @@ void ContactDofTransform<Number>::add_row(const PrimalSpace<3> &space, const Vec
                                           const std::vector<unsigned int> &components,
                                           const FullMatrix<double> &C, const unsigned int matrix)
 {
-  const BoxTables<3> &tables = space.tables;
+  std::vector<types::global_dof_index> dofs;
+  const BoxTables<3> &tables = space.tables.take_dofs(face.cell, dofs);
   const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  face.cell->get_dof_indices(dofs);
   std::map<unsigned int, std::vector<double>> columns;
   for (unsigned int j = 0; j < C.n(); ++j)
     resolve(
@@ -148,7 +149,7 @@ template <typename Number>
 void ContactDofTransform<Number>::turn(Vector &v, const bool to_axes) const
 {
   for (const Turn &turn : turns)
-    for (unsigned int k = 0; k < n; ++k)
+    for (unsigned int n = turn.n, k = 0; k < n; ++k)
     {
       std::array<Number, 3> old, turned{};
       for (unsigned int c = 0; c < 3; ++c)

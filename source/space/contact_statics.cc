@@ -202,8 +202,7 @@ std::vector<ContactSpot> of_all_processes(const std::vector<ContactSpot> &own,
 std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
                                            const std::vector<BodyMotions> &motions)
 {
-  const BoxTables<3> &tables = space.tables;
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   std::vector<DistributedVector> result(motions.size(), space.ghosted_vector());
   std::vector<char> is_known(space.relevant.n_elements()); // by the first component at a node
   for (const auto &cell : space.dof_handler.active_cell_iterators())
@@ -211,7 +210,7 @@ std::vector<DistributedVector> steps_along(const PrimalSpace<3> &space,
     {
       const unsigned int body = body_of<3>(space.scene.geometry, cell);
       const CellMap<3> map = map_of<3>(cell);
-      cell->get_dof_indices(dofs);
+      const BoxTables<3> &tables = space.tables.take_dofs(cell, dofs);
       for (const auto &components : tables.numbers)
       {
         if (std::exchange(is_known[space.relevant.index_within_set(dofs[components[0]])], true))
@@ -285,7 +284,7 @@ std::vector<ContactSpot> ContactStatics::spots_of(const ContactDofFace<3> &face)
 {
   const BoundaryCondition<3> &boundary = space.condition(face.cell, face.face);
   std::vector<ContactSpot> result;
-  for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+  for (unsigned int k = 0; k < space.tables.of(face.cell).n_contact_dofs(); ++k)
   {
     const ContactDof<3> &contact_dof = space.contact[face.first() + k];
     result.push_back({contact_dof.centroid, face.axes_at(k).normal,

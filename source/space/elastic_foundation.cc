@@ -39,13 +39,16 @@ std::vector<Tensor<1, dim>> SpringsOfFace<dim>::forces(const CellField<dim> &u) 
 
 // Constant springs meet polynomials of degree 2p: p + 1 points are exact. Others have three more.
 template <int dim>
-ElasticFoundation<dim>::ElasticFoundation(const Scene<dim> &scene, const BoxTables<dim> &tables)
+ElasticFoundation<dim>::ElasticFoundation(const Scene<dim> &scene, const DegreeTables<dim> &tables)
     : scene(scene), tables(tables), has_springs(scene.has_springs())
 {
   if (!has_springs)
     return;
-  constant = tables_of_faces<dim>(tables.degree, tables.degree + 1);
-  varying = tables_of_faces<dim>(tables.degree, tables.degree + 4);
+  for (const BoxTables<dim> &own : tables.all)
+  {
+    constant.push_back(tables_of_faces<dim>(own.degree, own.degree + 1));
+    varying.push_back(tables_of_faces<dim>(own.degree, own.degree + 4));
+  }
 }
 
 template <int dim>
@@ -69,6 +72,8 @@ std::vector<SpringsOfFace<dim>> ElasticFoundation<dim>::below(const Cell &cell) 
 {
   std::vector<SpringsOfFace<dim>> result;
   const CellMap<dim> map = map_of<dim>(cell);
+  const unsigned int number = this->tables.number_of(cell);
+  const BoxTables<dim> &tables = this->tables.all[number];
   for (const unsigned int face : cell->face_indices())
   {
     if (!has_springs || !cell->at_boundary(face) || !spring(cell, face))
@@ -79,7 +84,7 @@ std::vector<SpringsOfFace<dim>> ElasticFoundation<dim>::below(const Cell &cell) 
     for (unsigned int i = 0; i < tables.n_shapes; ++i)
       if (tables.fe.has_support_on_face(tables.numbers[i][0], face))
         springs.shapes.push_back(i);
-    const ShapeTable<dim> &table = (own.varies() ? varying : constant)[face];
+    const ShapeTable<dim> &table = (own.varies() ? varying : constant)[number][face];
     const unsigned int n = springs.shapes.size();
     springs.K.resize(n * n);
     for (unsigned int q = 0; q < table.points.size(); ++q)
@@ -104,6 +109,7 @@ std::vector<SpringsOfFace<dim>> ElasticFoundation<dim>::below(const Cell &cell) 
 template <int dim>
 void ElasticFoundation<dim>::add_to(FullMatrix<double> &K, const Cell &cell) const
 {
+  const auto &numbers = tables.of(cell).numbers;
   for (const SpringsOfFace<dim> &springs : below(cell))
     for (unsigned int i = 0; i < springs.shapes.size(); ++i)
       for (unsigned int j = 0; j < springs.shapes.size(); ++j)
@@ -111,19 +117,18 @@ void ElasticFoundation<dim>::add_to(FullMatrix<double> &K, const Cell &cell) con
         const Tensor<2, dim> &k = springs.K[i * springs.shapes.size() + j];
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int d = 0; d < dim; ++d)
-            K(tables.numbers[springs.shapes[i]][c], tables.numbers[springs.shapes[j]][d]) +=
-                k[c][d];
+            K(numbers[springs.shapes[i]][c], numbers[springs.shapes[j]][d]) += k[c][d];
       }
 }
 
 template <int dim>
 void ElasticFoundation<dim>::add_to_diagonal(std::vector<double> &diagonal, const Cell &cell) const
 {
+  const auto &numbers = tables.of(cell).numbers;
   for (const SpringsOfFace<dim> &springs : below(cell))
     for (unsigned int i = 0; i < springs.shapes.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        diagonal[tables.numbers[springs.shapes[i]][c]] +=
-            springs.K[i * springs.shapes.size() + i][c][c];
+        diagonal[numbers[springs.shapes[i]][c]] += springs.K[i * springs.shapes.size() + i][c][c];
 }
 
 template struct SpringsOfFace<2>;

@@ -22,10 +22,10 @@ constexpr unsigned int same_cell = GeometryInfo<3>::max_children_per_cell;
 /** Of the first component at each node; the others follow, see PrimalSpace. */
 std::vector<Dof> bases_of(const PrimalSpace<3> &space, const AnyCell &cell)
 {
-  std::vector<Dof> dofs(space.tables.fe.dofs_per_cell), result(space.tables.n_shapes);
-  Cell(*cell, &space.dof_handler)->get_dof_indices(dofs);
-  for (unsigned int i = 0; i < result.size(); ++i)
-    result[i] = dofs[space.tables.numbers[i][0]];
+  std::vector<Dof> dofs, result;
+  const Cell own(*cell, &space.dof_handler);
+  for (const auto &components : space.tables.take_dofs(own, dofs).numbers)
+    result.push_back(dofs[components[0]]);
   return result;
 }
 
@@ -83,9 +83,10 @@ struct LevelTransfer::Assembly
 
 // Fine and coarse mesh grow from the same cells: both trees are gone down together.
 LevelTransfer::LevelTransfer(const MultigridLevel<float> &coarse, const MultigridLevel<float> &fine)
-    : coarse(coarse), fine(fine), n_nodes(fine.space.tables.n_shapes)
+    : coarse(coarse), fine(fine)
 {
-  build_matrices();
+  for (const BoxTables<3> &tables : fine.space.tables.all)
+    build_matrices(tables);
   Assembly assembly;
   assembly.is_taken.resize(fine.space.owned.n_elements());
   const auto &coarse_mesh =
@@ -138,11 +139,13 @@ LevelTransfer::LevelTransfer(const MultigridLevel<float> &coarse, const Multigri
   share_rows();
 }
 
-void LevelTransfer::build_matrices()
+void LevelTransfer::build_matrices(const BoxTables<3> &tables)
 {
-  const FE_Q<3> element(fine.space.tables.degree);
+  const FE_Q<3> element(tables.degree);
+  const unsigned int n_nodes = tables.n_shapes;
   const auto &points = element.get_unit_support_points();
-  interpolation.resize(same_cell + 1);
+  interpolations.emplace_back(same_cell + 1);
+  Interpolation &interpolation = interpolations.back();
   for (unsigned int child = 0; child <= same_cell; ++child)
     for (unsigned int i = 0; i < n_nodes; ++i)
     {
@@ -159,10 +162,9 @@ void LevelTransfer::build_matrices()
 unsigned int LevelTransfer::coarse_nodes(const Cell &cell)
 {
   const unsigned int first = nodes.size();
-  const BoxTables<3> &tables = coarse.space.tables;
-  std::vector<Dof> dofs(tables.fe.dofs_per_cell);
-  cell->get_dof_indices(dofs);
-  for (unsigned int i = 0; i < n_nodes; ++i)
+  std::vector<Dof> dofs;
+  const BoxTables<3> &tables = coarse.space.tables.take_dofs(cell, dofs);
+  for (unsigned int i = 0; i < tables.n_shapes; ++i)
   {
     bool is_free = true;
     for (unsigned int c = 0; c < 3; ++c)
@@ -187,8 +189,9 @@ void LevelTransfer::add_piece(Assembly &assembly, const Cell &cell, const unsign
   const auto [known, is_new] = assembly.first_nodes.try_emplace(cell->id());
   if (is_new)
     known->second = coarse_nodes(cell);
-  Piece piece{known->second, child, static_cast<unsigned int>(rows.size()), 0};
-  for (unsigned int i = 0; i < n_nodes; ++i)
+  Piece piece{known->second, coarse.space.tables.number_of(cell), child,
+              static_cast<unsigned int>(rows.size()), 0};
+  for (unsigned int i = 0; i < bases.size(); ++i)
   {
     bool is_new_node;
     if (fine.space.owned.is_element(bases[i]))
@@ -211,7 +214,7 @@ void LevelTransfer::add_piece(Assembly &assembly, const Cell &cell, const unsign
 void LevelTransfer::add_links(const Cell &cell, const unsigned int child,
                               const std::vector<Dof> &bases)
 {
-  const BoxTables<3> &tables = coarse.space.tables;
+  const BoxTables<3> &tables = coarse.space.tables.of(cell);
   const unsigned int n = tables.degree - 1;
   for (unsigned int number = 0; cell->at_boundary() && number < 6; ++number)
   {
@@ -277,10 +280,13 @@ void LevelTransfer::prolongate(Vector &fine_v, Vector &coarse_v) const
 {
   coarse.transform().to_nodes(coarse_v);
   buffer = 0;
-  std::vector<float> values(3 * n_nodes);
+  std::vector<float> values;
   unsigned int loaded = numbers::invalid_unsigned_int;
   for (const Piece &piece : pieces)
   {
+    const Interpolation &interpolation = interpolations[piece.tables];
+    const unsigned int n_nodes = interpolation[same_cell].size();
+    values.resize(3 * n_nodes);
     if (loaded != piece.coarse)
       for (unsigned int i = 0; i < n_nodes; ++i)
       {
@@ -320,12 +326,14 @@ void LevelTransfer::restrict_to(Vector &coarse_r, Vector &fine_r) const
   buffer.copy_locally_owned_data_from(fine_r);
   buffer.update_ghost_values();
   coarse_r = 0;
-  std::vector<float> values(3 * n_nodes);
+  std::vector<float> values;
   for (unsigned int p = 0; p < pieces.size(); ++p)
   {
     const Piece &piece = pieces[p];
+    const Interpolation &interpolation = interpolations[piece.tables];
+    const unsigned int n_nodes = interpolation[same_cell].size();
     if (p == 0 || pieces[p - 1].coarse != piece.coarse)
-      std::fill(values.begin(), values.end(), 0.f);
+      values.assign(3 * n_nodes, 0.f);
     for (unsigned int r = piece.first; r < piece.end; ++r)
       for (const auto &[node, weight] : interpolation[piece.child][rows[r].node])
         for (unsigned int c = 0; c < 3; ++c)

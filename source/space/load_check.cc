@@ -56,13 +56,23 @@ void for_each_point(const CellMap<dim> &map, const unsigned int face, const unsi
   }
 }
 
+template <int dim>
+using Cell = typename Triangulation<dim>::cell_iterator;
+
+template <int dim>
+unsigned int degree_of(const Scene<dim> &scene, const Cell<dim> &cell)
+{
+  return scene.start_degree_of(body_of<dim>(scene.geometry, cell));
+}
+
 /** Rules on a cell or face: that of the run, with the same points, in one part and in many, at least four times as fine. */
 template <int dim>
 struct Parts
 {
   /** @p varies: nothing else needs a finer one. */
-  Parts(const Scene<dim> &scene, const unsigned int face, const bool varies)
-      : n_gauss(scene.adaptivity.start_degree + 1)
+  Parts(const Scene<dim> &scene, const unsigned int degree, const unsigned int face,
+        const bool varies)
+      : n_gauss(degree + 1)
   {
     const unsigned int samples = face == whole_cell ? 24 : 48; // along a side of the body
     once.fill(1);
@@ -156,10 +166,11 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene, const Triangulation<dim> &mes
   has_plates = scene.has_plates();
   size = scene.geometry.diameter();
   double largest = 0;
-  const auto look = [&](const Load<dim> &load, const CellMap<dim> &map, const unsigned int face,
+  const auto look = [&](const Load<dim> &load, const Cell<dim> &cell, const unsigned int face,
                         const std::string &name)
   {
-    const Parts<dim> parts(scene, face,
+    const CellMap<dim> map = map_of<dim>(cell);
+    const Parts<dim> parts(scene, degree_of(scene, cell), face,
                            map.is_curved() ||
                                std::any_of(load.begin(), load.end(), varies<dim>)); // ds may vary
     Tensor<1, dim> coarse, fine;
@@ -190,12 +201,12 @@ LoadCheck<dim>::LoadCheck(const Scene<dim> &scene, const Triangulation<dim> &mes
   for (const auto &cell : mesh.cell_iterators_on_level(0))
   {
     if (scene.has_body_force())
-      look(scene.body_force_in(cell), map_of<dim>(cell), whole_cell, "Body force");
+      look(scene.body_force_in(cell), cell, whole_cell, "Body force");
     for (const unsigned int face : cell->face_indices())
       if (cell->at_boundary(face))
         if (const auto &condition = scene.boundaries[cell->face(face)->boundary_id()];
             condition.has_traction())
-          look(condition.traction, map_of<dim>(cell), face, "Traction on " + condition.name);
+          look(condition.traction, cell, face, "Traction on " + condition.name);
   }
 }
 
@@ -236,10 +247,11 @@ public:
   }
 
   /** At one cell, or its @p face. */
-  void look(const CellMap<dim> &map, const unsigned int face, const bool is_varying,
+  void look(const Cell<dim> &cell, const unsigned int face, const bool is_varying,
             const std::string &name, const std::function<Value(const Point<dim> &)> &value)
   {
-    const Parts<dim> parts(scene, face, is_varying);
+    const CellMap<dim> map = map_of<dim>(cell);
+    const Parts<dim> parts(scene, degree_of(scene, cell), face, is_varying);
     Value coarse, fine;
     for_each_point<dim>(map, face, parts.n_gauss, parts.once,
                         [&](const Point<dim> &x, const double weight)
@@ -310,8 +322,7 @@ std::string strain_warning(const Scene<dim> &scene, const Triangulation<dim> &me
       continue;
     const bool own = std::any_of(initial.components.begin(), initial.components.end(), varies<dim>);
     comparison.look(
-        map_of<dim>(cell), whole_cell,
-        own || (initial.expansion != 0. && varies<dim>(initial.temperature)),
+        cell, whole_cell, own || (initial.expansion != 0. && varies<dim>(initial.temperature)),
         own ? "Initial strain" : "Temperature",
         [&, law = HookesLaw<dim>(scene.materials[material])](const Point<dim> &x)
         { return components<dim>(Tensor<2, dim>(law.stress(scene.initial_strain(material, x)))); });
@@ -333,8 +344,7 @@ std::string spring_warning(const Scene<dim> &scene, const Triangulation<dim> &me
         continue;
       const BoundaryCondition<dim> &condition = scene.boundaries[cell->face(face)->boundary_id()];
       if (condition.spring)
-        comparison.look(map_of<dim>(cell), face, condition.spring.varies(),
-                        "Spring on " + condition.name,
+        comparison.look(cell, face, condition.spring.varies(), "Spring on " + condition.name,
                         [&](const Point<dim> &x)
                         {
                           const auto [k_n, k_t] = condition.spring.at(x);

@@ -55,10 +55,12 @@ double work_on(const CellMap<dim> &map, const Load<dim> &load, const ShapeTable<
 
 template <int dim>
 double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const DistributedVector &u,
-                 const unsigned int n_points)
+                 const unsigned int finer)
 {
-  const std::vector<ShapeTable<dim>> tables = tables_of<dim>(space.tables.degree, n_points);
-  const StrainLoads<dim> strains(scene, space, n_points);
+  std::vector<std::vector<ShapeTable<dim>>> of_degrees;
+  for (const BoxTables<dim> &own : space.tables.all)
+    of_degrees.push_back(tables_of<dim>(own.degree, finer * (own.degree + 1)));
+  const StrainLoads<dim> strains(scene, space, finer);
   const bool has_inner_loads = scene.has_body_force() || scene.has_initial_strain();
   return sum_collectively(
              space.communicator(),
@@ -69,6 +71,8 @@ double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const D
                {
                  if (!cell->is_locally_owned() || !(has_inner_loads || cell->at_boundary()))
                    continue;
+                 const std::vector<ShapeTable<dim>> &tables =
+                     of_degrees[space.tables.number_of(cell)];
                  const CellField<dim> field = space.field(cell, u);
                  if (scene.has_initial_strain())
                    sum += product<dim>(strains.load(cell), field);

@@ -3,6 +3,8 @@
 
 #include <deal.II/multigrid/mg_transfer_global_coarsening.h>
 
+#include <algorithm>
+
 namespace hpvi
 {
 using namespace dealii;
@@ -21,7 +23,8 @@ constexpr types::global_dof_index most_factorised_of_bodies = 12000;
 
 bool Multigrid::is_for(const PrimalSpace<3> &space)
 {
-  return has_cell_operator(space.tables.degree);
+  return std::all_of(space.tables.all.begin(), space.tables.all.end(),
+                     [](const BoxTables<3> &tables) { return has_cell_operator(tables.degree); });
 }
 
 Multigrid::Multigrid(const PrimalSpace<3> &space) : finest(space)

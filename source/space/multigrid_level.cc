@@ -104,7 +104,7 @@ void MultigridLevel<Number>::find_entries(const BoxStiffness<3> &stiffness)
 {
   reinit(inverse_diagonal);
   blocks.resize(space.contact.size());
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   const auto resolve = [&](const unsigned int i, const auto &take)
   { ContactDofTransform<Number>::resolve(space, inverse_diagonal, dofs[i], take); };
   const auto hangs = [this](const auto dof)
@@ -126,7 +126,7 @@ void MultigridLevel<Number>::find_entries(const BoxStiffness<3> &stiffness)
       add_diagonal(cell, stiffness.nodal(cell), far);
       continue;
     }
-    cell->get_dof_indices(dofs);
+    space.tables.take_dofs(cell, dofs);
     if (std::none_of(dofs.begin(), dofs.end(), hangs))
     {
       std::vector<double> diagonal;
@@ -188,9 +188,10 @@ void MultigridLevel<Number>::set_blocks(const PrimalSpace<3>::Cell &cell,
     if (!own)
       continue;
     const ContactDofFace<3> &face = *own;
+    const BoxTables<3> &tables = space.tables.of(face.cell);
     const auto number = [&](const unsigned int k, const unsigned int axis)
-    { return space.tables.numbers[space.tables.inner[face.face][k]][axis]; };
-    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+    { return tables.numbers[tables.inner[face.face][k]][axis]; };
+    for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
     {
       for (unsigned int s = 0; face.has_friction() && s < 2; ++s)
         for (unsigned int t = 0; t <= s; ++t)
@@ -206,11 +207,11 @@ template <typename Number>
 void MultigridLevel<Number>::find_springs()
 {
   const ElasticFoundation<3> foundation(space.scene, space.tables);
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && foundation.holds(cell))
     {
-      cell->get_dof_indices(dofs);
+      const BoxTables<3> &tables = space.tables.take_dofs(cell, dofs);
       for (SpringsOfFace<3> &face : foundation.below(cell))
       {
         springs.push_back({std::move(face), {}});
@@ -218,7 +219,7 @@ void MultigridLevel<Number>::find_springs()
           for (unsigned int c = 0; c < 3; ++c)
           {
             auto &elements = springs.back().nodes.emplace_back();
-            resolve(dofs[space.tables.numbers[shape][c]],
+            resolve(dofs[tables.numbers[shape][c]],
                     [&](const unsigned int local, const double weight)
                     { elements.emplace_back(local, weight); });
           }
@@ -232,10 +233,11 @@ void MultigridLevel<Number>::add_springs(Vector &y, Vector &x) const
 {
   const bool knows_neighbours = x.has_ghost_elements();
   x.update_ghost_values();
-  CellField<3> u(space.tables.n_shapes);
+  CellField<3> u;
   for (const Springs &face : springs)
   {
     const std::vector<unsigned int> &shapes = face.of_face.shapes;
+    u.resize(shapes.back() + 1);
     for (unsigned int i = 0; i < face.nodes.size(); ++i)
     {
       double sum = 0;

@@ -41,7 +41,7 @@ Vector<double> forces_on_curved(const PrimalSpace<dim> &space, const ContactDofF
                                 const FullMatrix<double> &moments,
                                 const std::vector<ContactVector<dim>> &lambda)
 {
-  const unsigned int n = space.tables.n_contact_dofs();
+  const unsigned int n = space.tables.of(face.cell).n_contact_dofs();
   Vector<double> of_contact(dim * n), result(moments.n());
   for (unsigned int k = 0; k < n; ++k)
   {
@@ -109,12 +109,11 @@ NodalReactions<dim>::NodalReactions(const PrimalSpace<dim> &space, const PrimalS
 template <int dim>
 void NodalReactions<dim>::find_contact_forces(const std::vector<ContactVector<dim>> &lambda)
 {
-  const BoxTables<dim> &tables = space.tables;
   DistributedVector sum = space.ghosted_vector();
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const ContactDofFace<dim> &face : space.faces)
   {
-    face.cell->get_dof_indices(dofs);
+    const BoxTables<dim> &tables = space.tables.take_dofs(face.cell, dofs);
     const CellMap<dim> map = map_of<dim>(face.cell);
     const types::boundary_id boundary = face.cell->face(face.face)->boundary_id();
     const auto add = [&](const FullMatrix<double> &moments, const std::vector<unsigned int> &shapes)
@@ -164,7 +163,7 @@ void NodalReactions<dim>::add_forces_opposite(const std::vector<ContactVector<di
       for (const OppositeFaces::Row &row : opposite[number].rows)
       {
         Tensor<1, dim> force;
-        const unsigned int n = space.tables.n_contact_dofs();
+        const unsigned int n = space.tables.of(face.cell).n_contact_dofs();
         for (unsigned int k = 0; k < n; ++k)
         {
           const Tensor<1, dim> own = force_at(space, face, k, lambda);
@@ -205,13 +204,12 @@ void NodalReactions<dim>::carry_to_masters()
 template <int dim>
 void NodalReactions<dim>::find_nodes()
 {
-  const FESystem<dim> &fe = space.tables.fe;
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
   {
     if (cell->is_artificial())
       continue;
-    cell->get_dof_indices(dofs);
+    const FESystem<dim> &fe = space.tables.take_dofs(cell, dofs).fe;
     const CellMap<dim> map = map_of<dim>(cell);
     const unsigned int body = body_of<dim>(space.scene.geometry, cell);
     for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -235,15 +233,16 @@ void add_springs(const PrimalSpace<dim> &space, const DistributedVector &u,
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && foundation.holds(cell))
     {
+      const BoxTables<dim> &tables = space.tables.of(cell);
       const CellMap<dim> map = map_of<dim>(cell);
       for (const SpringsOfFace<dim> &springs : foundation.below(cell))
       {
         const std::vector<Tensor<1, dim>> forces = springs.forces(space.field(cell, u));
         for (unsigned int i = 0; i < forces.size(); ++i)
         {
-          const unsigned int node = space.tables.numbers[springs.shapes[i]][0];
+          const unsigned int node = tables.numbers[springs.shapes[i]][0];
           reactions.push_back({springs.boundary, -forces[i],
-                               map.point(space.tables.fe.unit_support_point(node)),
+                               map.point(tables.fe.unit_support_point(node)),
                                body_of<dim>(space.scene.geometry, cell), true});
         }
       }
@@ -254,7 +253,6 @@ void add_springs(const PrimalSpace<dim> &space, const DistributedVector &u,
 template <int dim>
 std::vector<typename NodalForces<dim>::Traction> tractions(const PrimalSpace<dim> &space)
 {
-  const QGauss<dim - 1> rule(space.tables.fe.degree + 1);
   const Point<dim> centre = space.scene.geometry.centre();
   std::vector<typename NodalForces<dim>::Traction> result;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
@@ -264,6 +262,7 @@ std::vector<typename NodalForces<dim>::Traction> tractions(const PrimalSpace<dim
       {
         const BoundaryCondition<dim> &condition = space.condition(cell, face);
         const CellMap<dim> map = map_of<dim>(cell);
+        const QGauss<dim - 1> rule(space.tables.of(cell).degree + 1);
         Tensor<1, dim> force;
         Moment<dim> moment{};
         for (unsigned int q = 0; q < rule.size(); ++q)

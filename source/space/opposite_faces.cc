@@ -123,13 +123,13 @@ std::vector<unsigned int> shapes_on(const BoxTables<3> &tables, const unsigned i
 
 /** Of this process. */
 std::vector<MasterFace> own_masters(const Scene<3> &scene, const DoFHandler<3> &dof_handler,
-                                    const BoxTables<3> &tables,
+                                    const DegreeTables<3> &all_tables,
                                     const AffineConstraints<double> &constraints,
                                     const std::vector<bool> &is_master)
 {
   std::vector<MasterFace> result;
   const std::vector<bool> is_curved = on_curved_pairs(scene);
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   const unsigned int rank = rank_of(dof_handler.get_communicator());
   for (const Cell &cell : dof_handler.active_cell_iterators())
     for (const unsigned int face : cell->face_indices())
@@ -144,6 +144,7 @@ std::vector<MasterFace> own_masters(const Scene<3> &scene, const DoFHandler<3> &
                         cell->material_id(),
                         rank,
                         cell->active_cell_index(),
+                        all_tables.number_of(cell),
                         {},
                         {}};
       if (is_curved[master.boundary])
@@ -151,7 +152,7 @@ std::vector<MasterFace> own_masters(const Scene<3> &scene, const DoFHandler<3> &
         const CurvedFace curve = curve_of(map, face);
         master.curve.assign(curve.nodes().begin(), curve.nodes().end());
       }
-      cell->get_dof_indices(dofs);
+      const BoxTables<3> &tables = all_tables.take_dofs(cell, dofs);
       for (const unsigned int shape : shapes_on(tables, face))
       {
         const unsigned int number = tables.numbers[shape][0];
@@ -183,6 +184,11 @@ public:
     }
   }
 
+  unsigned int degree() const
+  {
+    return basis.size() - 1;
+  }
+
   /** The values of @p shapes at a point of the unit cell, on @p face. */
   std::vector<double> values(const std::vector<unsigned int> &shapes, const unsigned int face,
                              const Point<3> &x) const
@@ -199,7 +205,7 @@ public:
   }
 
 private:
-  const std::vector<Polynomials::Polynomial<double>> basis;
+  std::vector<Polynomials::Polynomial<double>> basis;
   std::vector<std::array<unsigned int, 3>> of_axis;
 };
 
@@ -267,14 +273,16 @@ unsigned int more_points(const CellMap<3> &map, const unsigned int face)
 class Search
 {
 public:
-  Search(const Scene<3> &scene, const BoxTables<3> &tables, const std::vector<MasterFace> &masters)
-      : scene(scene), tables(tables), masters(masters), pieces(pieces_of(masters)),
-        polynomials(tables)
+  Search(const Scene<3> &scene, const DegreeTables<3> &tables,
+         const std::vector<MasterFace> &masters)
+      : scene(scene), tables(tables), masters(masters), pieces(pieces_of(masters))
   {
+    for (const BoxTables<3> &own : tables.all)
+      polynomials.emplace_back(own);
     std::vector<CurvedFace> curved;
     for (unsigned int m = 0; m < masters.size(); ++m)
     {
-      shapes.push_back(shapes_on(tables, masters[m].face));
+      shapes.push_back(shapes_on(tables.all[masters[m].tables], masters[m].face));
       if (masters[m].curve.empty())
         continue;
       curved.push_back(curve_of(masters[m]));
@@ -297,10 +305,10 @@ private:
                  const ConvexPolygon &polygon, unsigned int master);
 
   const Scene<3> &scene;
-  const BoxTables<3> &tables;
+  const DegreeTables<3> &tables;
   const std::vector<MasterFace> &masters;
-  const FacesFromAll pieces; ///< by master
-  const NodalPolynomials polynomials;
+  const FacesFromAll pieces;                     ///< by master
+  std::vector<NodalPolynomials> polynomials;     ///< by number of tables
   std::vector<std::vector<unsigned int>> shapes; ///< by master
   std::map<std::pair<unsigned int, unsigned int>, std::vector<double>>
       integrals;                               ///< of psi_k phi_d, by master and node
@@ -326,7 +334,7 @@ public:
 
   /** By the part of the face that is @p polygon; @p shapes are those of the master. */
   void integrate(const ConvexPolygon &polygon, const CurvedFace &surface, const MasterFace &master,
-                 const std::vector<unsigned int> &shapes,
+                 const NodalPolynomials &of_master, const std::vector<unsigned int> &shapes,
                  const std::function<std::vector<Tensor<1, 3>> &(unsigned int)> &row);
 
   /** Divides by `int psi_k`. */
@@ -368,11 +376,13 @@ void CurvedMoments::add(FullMatrix<double> &matrix, const std::vector<unsigned i
 }
 
 void CurvedMoments::integrate(const ConvexPolygon &polygon, const CurvedFace &surface,
-                              const MasterFace &master, const std::vector<unsigned int> &shapes,
+                              const MasterFace &master, const NodalPolynomials &of_master,
+                              const std::vector<unsigned int> &shapes,
                               const std::function<std::vector<Tensor<1, 3>> &(unsigned int)> &row)
 {
   Point<2> start(0.5, 0.5);
-  for (const WeightedPoint &point : rule_on(polygon, 2 * tables.degree))
+  for (const WeightedPoint &point :
+       rule_on(polygon, tables.degree + std::max(tables.degree, of_master.degree())))
   {
     const Point<3> own = on_cell(slave.face, point.x);
     const ContactAxes<3> axes = axes_of_face(map, slave.face, own, boundary);
@@ -392,7 +402,7 @@ void CurvedMoments::integrate(const ConvexPolygon &polygon, const CurvedFace &su
     add(moments.M, tables.inner[slave.face], own, axes);
     add(moments.W, tables.rim[slave.face], own, axes);
     const std::vector<double> phi =
-        polynomials.values(shapes, master.face, on_cell(master.face, at->xi));
+        of_master.values(shapes, master.face, on_cell(master.face, at->xi));
     for (unsigned int j = 0; j < phi.size(); ++j)
     {
       std::vector<Tensor<1, 3>> &sums = row(j);
@@ -425,10 +435,12 @@ void Search::integrate(const ContactDofFace<3> &slave, const CellMap<3> &map,
                        const unsigned int master)
 {
   const CellMap<3> other = masters[master].map();
-  const unsigned int n = 2 * tables.degree - 1 +
+  const BoxTables<3> &own_tables = tables.of(slave.cell);
+  const NodalPolynomials &of_master = polynomials[masters[master].tables];
+  const unsigned int n = own_tables.degree + of_master.degree() - 1 +
                          std::max(more_points(map, slave.face),
                                   more_points(other, masters[master].face)),
-                     n_dofs = tables.n_contact_dofs();
+                     n_dofs = own_tables.n_contact_dofs();
   std::vector<double> psi(n_dofs);
   for (const WeightedPoint &point : rule_on(polygon, n))
   {
@@ -437,10 +449,10 @@ void Search::integrate(const ContactDofFace<3> &slave, const CellMap<3> &map,
                    there = reference_on(other, masters[master].face, x, slave.axes.normal);
     for (unsigned int k = 0; k < n_dofs; ++k)
     {
-      psi[k] = point.weight * tables.psi(k, slave.face, own);
+      psi[k] = point.weight * own_tables.psi(k, slave.face, own);
       areas[k] += psi[k];
     }
-    const std::vector<double> phi = polynomials.values(shapes[master], masters[master].face, there);
+    const std::vector<double> phi = of_master.values(shapes[master], masters[master].face, there);
     for (unsigned int d = 0; d < phi.size(); ++d)
     {
       std::vector<double> &sums = integrals[{master, d}];
@@ -462,7 +474,7 @@ OppositeFaces::Opposite Search::opposite(const ContactDofFace<3> &slave, const N
       scene.pairs[*scene.boundaries[slave.cell->face(slave.face)->boundary_id()].pair];
   OppositeFaces::Opposite result;
   integrals.clear();
-  areas.assign(tables.n_contact_dofs(), 0.);
+  areas.assign(tables.of(slave.cell).n_contact_dofs(), 0.);
   const double area = area_of(piece);
   double covered = 0;
   for (const FacesAcross::Part &part : view.opposite(piece,
@@ -503,7 +515,8 @@ OppositeFaces::Opposite Search::opposite_on_curve(const ContactDofFace<3> &slave
   const auto &sides = scene.pairs[*boundary.pair].sides;
   const unsigned int other = sides[sides[0] == boundary.side ? 1 : 0];
   OppositeFaces::Opposite result;
-  CurvedMoments moments(tables, polynomials, slave, boundary);
+  CurvedMoments moments(tables.of(slave.cell), polynomials[tables.number_of(slave.cell)], slave,
+                        boundary);
   std::map<unsigned int, unsigned int> rows; // by node
   if (surfaces)
     for (const FacesAcross::Part &part : surfaces->parts(
@@ -511,7 +524,8 @@ OppositeFaces::Opposite Search::opposite_on_curve(const ContactDofFace<3> &slave
              { return scene.boundaries[masters[of_surfaces[f]].boundary].side == other; }))
     {
       const unsigned int m = of_surfaces[part.opposite];
-      moments.integrate(part.polygon, (*surfaces)[part.opposite], masters[m], shapes[m],
+      moments.integrate(part.polygon, (*surfaces)[part.opposite], masters[m],
+                        polynomials[masters[m].tables], shapes[m],
                         [&](const unsigned int j) -> std::vector<Tensor<1, 3>> &
                         {
                           const unsigned int node = node_of(m, j);
@@ -543,7 +557,7 @@ CellMap<3> MasterFace::map() const
 }
 
 OppositeFaces::OppositeFaces(const Scene<3> &scene, const DoFHandler<3> &dof_handler,
-                             const BoxTables<3> &tables,
+                             const DegreeTables<3> &tables,
                              const AffineConstraints<double> &constraints,
                              const std::vector<ContactDofFace<3>> &slaves,
                              const std::vector<bool> &master_boundaries)
@@ -737,6 +751,7 @@ Tensor<1, 3> OppositeFaces::displacement(const Place &place,
                                          const std::vector<double> &values) const
 {
   const unsigned int face = masters[place.master].face;
+  const BoxTables<3> &tables = this->tables.all[masters[place.master].tables];
   Tensor<1, 3> result;
   unsigned int i = 0;
   for (const auto *const shapes : {&tables.rim[face], &tables.inner[face]}) // the order of nodes

@@ -143,7 +143,7 @@ Work work(const PastState<dim> *const last, const PastState<dim> &next,
     DistributedVector own = space.owned_vector(), own_du = space.owned_vector();
     own.copy_locally_owned_data_from(internal);
     own_du.copy_locally_owned_data_from(du);
-    return acting(load_work(*state.scene, space, du, space.tables.degree + 1), own * own_du, all);
+    return acting(load_work(*state.scene, space, du, 1), own * own_du, all);
   };
   const Acting before = last ? in_state(*last) : Acting(), after = in_state(next);
   return {0.5 * (before.outside + after.outside),

@@ -70,7 +70,7 @@ PlateOnMesh<dim>::amounts(const DistributedVector &u) const
 template <int dim>
 std::vector<SupportedNode<dim>> plate_nodes(const Scene<dim> &scene,
                                             const DoFHandler<dim> &dof_handler,
-                                            const BoxTables<dim> &tables)
+                                            const DegreeTables<dim> &tables)
 {
   std::vector<SupportedNode<dim>> result;
   if (!scene.has_plates())
@@ -84,7 +84,7 @@ std::vector<SupportedNode<dim>> plate_nodes(const Scene<dim> &scene,
 template <int dim>
 std::vector<PlateOnMesh<dim>> constrain_plates(const Scene<dim> &scene,
                                                const DoFHandler<dim> &dof_handler,
-                                               const BoxTables<dim> &tables, IndexSet &relevant,
+                                               const DegreeTables<dim> &tables, IndexSet &relevant,
                                                AffineConstraints<double> &constraints)
 {
   std::vector<PlateOnMesh<dim>> result;
@@ -152,14 +152,14 @@ double plate_work(const Scene<dim> &scene, const std::vector<PlateOnMesh<dim>> &
 template struct PlateOnMesh<2>;
 template struct PlateOnMesh<3>;
 template std::vector<SupportedNode<2>> plate_nodes(const Scene<2> &, const DoFHandler<2> &,
-                                                   const BoxTables<2> &);
+                                                   const DegreeTables<2> &);
 template std::vector<SupportedNode<3>> plate_nodes(const Scene<3> &, const DoFHandler<3> &,
-                                                   const BoxTables<3> &);
+                                                   const DegreeTables<3> &);
 template std::vector<PlateOnMesh<2>> constrain_plates(const Scene<2> &, const DoFHandler<2> &,
-                                                      const BoxTables<2> &, IndexSet &,
+                                                      const DegreeTables<2> &, IndexSet &,
                                                       AffineConstraints<double> &);
 template std::vector<PlateOnMesh<3>> constrain_plates(const Scene<3> &, const DoFHandler<3> &,
-                                                      const BoxTables<3> &, IndexSet &,
+                                                      const DegreeTables<3> &, IndexSet &,
                                                       AffineConstraints<double> &);
 template double plate_work(const Scene<2> &, const std::vector<PlateOnMesh<2>> &,
                            const DistributedVector &);

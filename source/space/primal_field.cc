@@ -77,8 +77,12 @@ PrimalField<dim>::PrimalField(const Scene<dim> &scene, const PrimalSpace<dim> &s
     this->add_face(cell, face);
     contact_dof_faces.push_back(space.moment_face(cell, face));
   }
-  for (const BoxTable<dim> &table : space.tables.moment_points)
-    moment_tables.push_back(tabulate<dim>(space.tables.degree, table.points, table.weights, false));
+  for (const BoxTables<dim> &own : space.tables.all)
+  {
+    moment_tables.emplace_back();
+    for (const BoxTable<dim> &table : own.moment_points)
+      moment_tables.back().push_back(tabulate<dim>(own.degree, table.points, table.weights, false));
+  }
   if (!space.opposite)
     return;
   far = far_change = space.values_opposite(*this->u);
@@ -124,9 +128,11 @@ void PrimalField<dim>::find_exerted()
         for (const OppositeFaces::Part &part : opposite[number_of(face)].parts)
         {
           const MasterFace &master = opposite.masters[part.master];
+          const unsigned int n_points =
+              1 + std::max(face.degree(), space.tables.all[master.tables].degree);
           FarTraction message{master.cell, master.face, slave.axes.normal, {}, {}, {}};
           Tensor<1, 3> mean_normal;
-          for (const auto &point : opposite.points_of(part, slave, space.tables.degree + 1))
+          for (const auto &point : opposite.points_of(part, slave, n_points))
           {
             const ContactTraction<3> traction = this->traction(face, point.own);
             const FaceFrame<3> frame = face.frame(point.own);
@@ -211,12 +217,13 @@ const std::vector<ExertedTraction<dim>> &PrimalField<dim>::exerted() const
 template <int dim>
 std::vector<double> PrimalField<dim>::coefficients(const Cell &cell) const
 {
-  const LocalNumbering &numbering = this->tables.numbering(space.tables.degree);
+  const LocalNumbering &numbering = this->tables.numbering(this->degree(cell));
   std::vector<types::global_dof_index> dofs(numbering.shape.size());
   cell->get_dof_indices(dofs);
   std::vector<double> result(dofs.size());
   for (unsigned int i = 0; i < dofs.size(); ++i)
-    result[numbering.component[i] * space.tables.n_shapes + numbering.shape[i]] = (*u)(dofs[i]);
+    result[numbering.component[i] * space.tables.of(cell).n_shapes + numbering.shape[i]] =
+        (*u)(dofs[i]);
   return result;
 }
 
@@ -249,9 +256,10 @@ ContactTraction<dim> PrimalField<dim>::traction(const FieldFace<dim> &face,
                                                 const Point<dim> &reference) const
 {
   ContactTraction<dim> result;
-  for (unsigned int k = 0; contact_dof_faces[face.number] && k < space.tables.n_contact_dofs(); ++k)
+  const BoxTables<dim> &own_tables = tables_of(face);
+  for (unsigned int k = 0; contact_dof_faces[face.number] && k < own_tables.n_contact_dofs(); ++k)
   {
-    const double psi = space.tables.psi(k, face.face_no, reference);
+    const double psi = own_tables.psi(k, face.face_no, reference);
     const ContactTraction<dim> own = multiplier(face, k);
     result.friction += psi * own.friction;
     result.pressure += psi * own.pressure;
@@ -266,8 +274,9 @@ double PrimalField<dim>::bound(const FieldFace<dim> &face, const Point<dim> &ref
   const ContactDofFace<dim> *const own = contact_dof_faces[face.number];
   double pressure = 0;
   for (unsigned int k = 0;
-       law.knows_pressure() && own && own->has_pressure() && k < space.tables.n_contact_dofs(); ++k)
-    pressure += space.tables.psi(k, face.face_no, reference) * (*lambda)[own->pressure + k][0];
+       law.knows_pressure() && own && own->has_pressure() && k < tables_of(face).n_contact_dofs();
+       ++k)
+    pressure += tables_of(face).psi(k, face.face_no, reference) * (*lambda)[own->pressure + k][0];
   const auto varies = [](const Expression<dim> &function)
   { return function && !is_constant<dim>(function); };
   const bool is_same = !varies(law.bound) && !varies(law.coefficient) && !law.by_pressure;
@@ -288,14 +297,14 @@ Tangential<dim> PrimalField<dim>::past_slip(const FieldFace<dim> &face, const Po
   const Point<dim> &reference = *found;
   Tensor<1, dim> u = -displacement_opposite(face, reference, x, past_far);
   for (unsigned int i = 0; i < field.size(); ++i) // the first component of shape i has its value
-    u += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];
+    u += tables_of(face).fe.shape_value(tables_of(face).numbers[i][0], reference) * field[i];
   return face.frame(reference).tangential(u);
 }
 
 template <int dim>
 std::vector<double> PrimalField<dim>::friction_cuts(const FieldFace<dim> &face) const
 {
-  const unsigned int p = space.tables.degree;
+  const unsigned int p = face.degree();
   if (!contact_dof_faces[face.number] || !contact_dof_faces[face.number]->has_friction())
     return {};
   if constexpr (dim == 2)
@@ -335,7 +344,7 @@ std::vector<MultiplierPoint<dim>> PrimalField<dim>::multiplier_points(const Fiel
 template <int dim>
 const ShapeTable<dim> &PrimalField<dim>::multiplier_table(const FieldFace<dim> &face) const
 {
-  return moment_tables[face.face_no];
+  return moment_tables[space.tables.number_of(face.cell)][face.face_no];
 }
 
 template <int dim>
@@ -343,7 +352,7 @@ std::vector<PressureValue<dim>> PrimalField<dim>::pressures(const FieldFace<dim>
 {
   std::vector<PressureValue<dim>> result;
   const ContactDofFace<dim> *const own = contact_dof_faces[face.number];
-  for (unsigned int k = 0; own && own->has_pressure() && k < space.tables.n_contact_dofs(); ++k)
+  for (unsigned int k = 0; own && own->has_pressure() && k < tables_of(face).n_contact_dofs(); ++k)
     result.push_back({space.contact[own->pressure + k].x, (*lambda)[own->pressure + k][0]});
   return result;
 }
@@ -366,11 +375,11 @@ PrimalField<dim>::round_off_probe(const Scene<dim> &unloaded) const
   std::mt19937 random;
   std::uniform_real_distribution<double> uniform(-1., 1.);
   const auto bits = std::make_shared<DistributedVector>(space.ghosted_vector());
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const Cell &cell : this->dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
+      space.tables.take_dofs(cell, dofs);
       double largest = 0;
       for (const auto dof : dofs)
         largest = std::max(largest, std::abs((*u)(dof)));

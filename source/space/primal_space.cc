@@ -33,7 +33,7 @@ bool agreed_rests_on_contact(const Scene<dim> &scene, MPI_Comm communicator)
 
 template <int dim>
 PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
-                              const BoxTables<dim> &tables)
+                              const DegreeTables<dim> &tables)
     : scene(scene), tables(tables),
       rests_on_contact(agreed_rests_on_contact(scene, mesh.get_communicator())), dof_handler(mesh)
 {
@@ -61,8 +61,9 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
   for (const ContactDofFace<dim> &face : faces)
   {
     const BoundaryCondition<dim> &boundary = condition(face.cell, face.face);
-    own_discs += boundary.friction || boundary.is_tied() ? tables.n_contact_dofs() : 0;
-    own_pressures += face.has_pressure() ? tables.n_contact_dofs() : 0;
+    const unsigned int n = tables.of(face.cell).n_contact_dofs();
+    own_discs += boundary.friction || boundary.is_tied() ? n : 0;
+    own_pressures += face.has_pressure() ? n : 0;
   }
   n_discs = Utilities::MPI::sum(own_discs, communicator());
   n_pressures = Utilities::MPI::sum(own_pressures, communicator());
@@ -72,18 +73,17 @@ PrimalSpace<dim>::PrimalSpace(const Scene<dim> &scene, const Mesh &mesh,
 template <int dim>
 void PrimalSpace<dim>::number()
 {
-  dof_handler.distribute_dofs(tables.fe);
+  tables.distribute_dofs(dof_handler);
   owned = dof_handler.locally_owned_dofs();
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell),
+  std::vector<types::global_dof_index> dofs,
       renumbered(owned.n_elements(), numbers::invalid_dof_index);
   types::global_dof_index next = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
   for (const Cell &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < tables.n_shapes; ++i)
+      for (const auto &components : tables.take_dofs(cell, dofs).numbers)
         for (unsigned int c = 0; c < dim; ++c)
-          if (const auto index = dof(dofs, i, c); owned.is_element(index))
+          if (const auto index = dofs[components[c]]; owned.is_element(index))
             if (auto &number = renumbered[owned.index_within_set(index)];
                 number == numbers::invalid_dof_index)
               number = next++;
@@ -96,11 +96,11 @@ void PrimalSpace<dim>::number()
 template <int dim>
 void PrimalSpace<dim>::find_contact()
 {
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const Cell &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && cell->at_boundary())
     {
-      cell->get_dof_indices(dofs);
+      tables.take_dofs(cell, dofs);
       for (const unsigned int number : cell->face_indices())
       {
         if (!cell->at_boundary(number))
@@ -182,11 +182,12 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
     return face;
   }
   const CellMap<dim> map = map_of<dim>(cell);
+  const BoxTables<dim> &own = tables.of(cell);
   if (map.is_curved() || is_in_curved_pair(boundary))
   {
     const auto axes = [&](const Point<dim> &x) { return axes_of_face(map, number, x, boundary); };
-    face.own = std::make_shared<const FaceContactDofs>(tables.curved_moments_of(map, number, axes));
-    for (const Point<dim> &x : tables.moment_points[number].points)
+    face.own = std::make_shared<const FaceContactDofs>(own.curved_moments_of(map, number, axes));
+    for (const Point<dim> &x : own.moment_points[number].points)
       face.turning.push_back(axes(x));
     face.axes = face.turning[face.turning.size() / 2];
     face.axes.axis = ContactAxes<dim>::none; // all components are contact dofs
@@ -200,7 +201,7 @@ ContactDofFace<dim> PrimalSpace<dim>::face_of(const Cell &cell, const unsigned i
   const double area = map.face_area(number);
   for (unsigned int v = 0; v < GeometryInfo<dim>::vertices_per_face && !face.own; ++v)
     if (std::abs(map.face_measure(number, corner(v)) - area) > same_box * area)
-      face.own = std::make_shared<const FaceContactDofs>(tables.moments_of(map, number));
+      face.own = std::make_shared<const FaceContactDofs>(own.moments_of(map, number));
   return face;
 }
 
@@ -209,12 +210,13 @@ void PrimalSpace<dim>::add_contact_dofs(const ContactDofFace<dim> &face,
                                         const typename ContactDof<dim>::Kind kind,
                                         const std::vector<types::global_dof_index> &dofs)
 {
+  const BoxTables<dim> &tables = this->tables.of(face.cell);
   const BoxTable<dim> &table = tables.moment_points[face.face];
   const CellMap<dim> map = map_of<dim>(face.cell);
   for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
   {
     const auto unknown = [&](const unsigned int component)
-    { return owned.index_within_set(dof(dofs, tables.inner[face.face][k], component)); };
+    { return owned.index_within_set(dofs[tables.numbers[tables.inner[face.face][k]][component]]); };
     ContactDof<dim> contact_dof;
     contact_dof.kind = kind;
     contact_dof.x = contact_dof.centroid = map.point(table.points[k]);
@@ -251,6 +253,7 @@ template <typename Value>
 Value PrimalSpace<dim>::mean(const ContactDofFace<dim> &face, const unsigned int k,
                              const std::function<Value(const Point<dim> &)> &f) const
 {
+  const BoxTables<dim> &tables = this->tables.of(face.cell);
   const QGauss<dim - 1> rule(tables.degree + 2);
   const CellMap<dim> map = map_of<dim>(face.cell);
   const double area = face.own ? face.own->areas[k] : tables.moment_points[face.face].weights[k];
@@ -280,14 +283,6 @@ double PrimalSpace<dim>::gap_at(const ContactDofFace<dim> &face, const Point<dim
 }
 
 template <int dim>
-types::global_dof_index PrimalSpace<dim>::dof(const std::vector<types::global_dof_index> &dofs,
-                                              const unsigned int shape,
-                                              const unsigned int component) const
-{
-  return dofs[tables.numbers[shape][component]];
-}
-
-template <int dim>
 MPI_Comm PrimalSpace<dim>::communicator() const
 {
   return dof_handler.get_communicator();
@@ -307,13 +302,14 @@ DistributedVector PrimalSpace<dim>::ghosted_vector() const
 
 /** All components at nodes of a face, one component after the other. */
 template <int dim>
-Vector<double> PrimalSpace<dim>::components_at(const std::vector<types::global_dof_index> &dofs,
+Vector<double> PrimalSpace<dim>::components_at(const BoxTables<dim> &tables,
+                                               const std::vector<types::global_dof_index> &dofs,
                                                const std::vector<unsigned int> &shapes,
                                                const DistributedVector &u) const
 {
   Vector<double> result(dim * shapes.size());
   for (unsigned int i = 0; i < result.size(); ++i)
-    result[i] = u(dof(dofs, shapes[i % shapes.size()], i / shapes.size()));
+    result[i] = u(dofs[tables.numbers[shapes[i % shapes.size()]][i / shapes.size()]]);
   return result;
 }
 
@@ -325,41 +321,43 @@ DistributedVector PrimalSpace<dim>::displacement(const DistributedVector &v) con
   DistributedVector u = ghosted_vector();
   u.copy_locally_owned_data_from(complete);
   u.update_ghost_values();
-  const unsigned int n = tables.n_contact_dofs();
-  Vector<double> rest(n), inner(n);
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   const std::vector<double> far = values_opposite(complete);
   for (unsigned int number = 0; number < faces.size(); ++number)
   {
     const ContactDofFace<dim> &face = faces[number];
-    face.cell->get_dof_indices(dofs);
+    const BoxTables<dim> &tables = this->tables.take_dofs(face.cell, dofs);
+    const auto dof = [&](const unsigned int shape, const unsigned int component)
+    { return dofs[tables.numbers[shape][component]]; };
+    const unsigned int n = tables.n_contact_dofs();
     const FaceContactDofs &contact_dofs = contact_dofs_on(face);
     const auto &inner_shapes = tables.inner[face.face], &rim_shapes = tables.rim[face.face];
     if (face.is_curved())
     {
-      Vector<double> of_inner = components_at(dofs, inner_shapes, u), all(of_inner.size());
-      contact_dofs.W.vmult(all, components_at(dofs, rim_shapes, u));
+      Vector<double> of_inner = components_at(tables, dofs, inner_shapes, u), all(of_inner.size());
+      contact_dofs.W.vmult(all, components_at(tables, dofs, rim_shapes, u));
       of_inner -= all;
       of_inner += moments_opposite(number, far);
       contact_dofs.M_inverse.vmult(all, of_inner);
       for (unsigned int i = 0; i < all.size(); ++i)
-        complete(dof(dofs, inner_shapes[i % n], i / n)) = all[i];
+        complete(dof(inner_shapes[i % n], i / n)) = all[i];
       continue;
     }
+    Vector<double> rest(n), inner(n);
     for (const unsigned int c : face.components())
     {
       for (unsigned int k = 0; k < n; ++k)
       {
-        rest[k] = face.axes.is_rotated() ? 0. : u(dof(dofs, inner_shapes[k], c));
+        rest[k] = face.axes.is_rotated() ? 0. : u(dof(inner_shapes[k], c));
         for (unsigned int own = 0; face.axes.is_rotated() && own < dim; ++own)
-          rest[k] += face.direction(own)[c] * u(dof(dofs, inner_shapes[k], own));
+          rest[k] += face.direction(own)[c] * u(dof(inner_shapes[k], own));
         for (unsigned int j = 0; j < rim_shapes.size(); ++j)
-          rest[k] -= contact_dofs.W(k, j) * u(dof(dofs, rim_shapes[j], c));
+          rest[k] -= contact_dofs.W(k, j) * u(dof(rim_shapes[j], c));
         rest[k] += moment_opposite(number, k, far)[c];
       }
       contact_dofs.M_inverse.vmult(inner, rest);
       for (unsigned int k = 0; k < n; ++k)
-        complete(dof(dofs, inner_shapes[k], c)) = inner[k];
+        complete(dof(inner_shapes[k], c)) = inner[k];
     }
   }
   u.zero_out_ghost_values();
@@ -393,7 +391,7 @@ template <int dim>
 Vector<double> PrimalSpace<dim>::moments_opposite(const unsigned int face,
                                                   const std::vector<double> &far) const
 {
-  Vector<double> result(dim * tables.n_contact_dofs());
+  Vector<double> result(dim * tables.of(faces[face].cell).n_contact_dofs());
   if constexpr (dim == 3)
     if (opposite)
       for (const OppositeFaces::Row &row : (*opposite)[face].rows)
@@ -408,23 +406,25 @@ DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) 
 {
   DistributedVector v = owned_vector();
   v.copy_locally_owned_data_from(u);
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   const std::vector<double> far = values_opposite(u);
   for (unsigned int number = 0; number < faces.size(); ++number)
   {
     const ContactDofFace<dim> &face = faces[number];
     const CellField<dim> field = this->field(face.cell, u);
     const FaceContactDofs &contact_dofs = contact_dofs_on(face);
-    face.cell->get_dof_indices(dofs);
+    const BoxTables<dim> &tables = this->tables.take_dofs(face.cell, dofs);
+    const auto dof = [&](const unsigned int shape, const unsigned int component)
+    { return dofs[tables.numbers[shape][component]]; };
     if (face.is_curved())
     {
       const auto &inner_shapes = tables.inner[face.face];
       Vector<double> m(dim * inner_shapes.size());
-      contact_dofs.M.vmult(m, components_at(dofs, inner_shapes, u));
-      contact_dofs.W.vmult_add(m, components_at(dofs, tables.rim[face.face], u));
+      contact_dofs.M.vmult(m, components_at(tables, dofs, inner_shapes, u));
+      contact_dofs.W.vmult_add(m, components_at(tables, dofs, tables.rim[face.face], u));
       m -= moments_opposite(number, far);
       for (unsigned int i = 0; i < m.size(); ++i)
-        v(dof(dofs, inner_shapes[i % inner_shapes.size()], i / inner_shapes.size())) = m[i];
+        v(dof(inner_shapes[i % inner_shapes.size()], i / inner_shapes.size())) = m[i];
       continue;
     }
     for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
@@ -435,7 +435,7 @@ DistributedVector PrimalSpace<dim>::in_contact_dofs(const DistributedVector &u) 
       for (unsigned int j = 0; j < contact_dofs.W.n(); ++j)
         m += contact_dofs.W(k, j) * field[tables.rim[face.face][j]];
       for (const unsigned int c : face.components())
-        v(dof(dofs, tables.inner[face.face][k], c)) = m * face.direction(c);
+        v(dof(tables.inner[face.face][k], c)) = m * face.direction(c);
     }
   }
   constraints.set_zero(v);
@@ -482,12 +482,12 @@ void PrimalSpace<dim>::count_slip_from(const DistributedVector &u)
 template <int dim>
 CellField<dim> PrimalSpace<dim>::field(const Cell &cell, const DistributedVector &u) const
 {
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  cell->get_dof_indices(dofs);
-  CellField<dim> result(tables.n_shapes);
-  for (unsigned int i = 0; i < tables.n_shapes; ++i)
+  std::vector<types::global_dof_index> dofs;
+  const BoxTables<dim> &own = tables.take_dofs(cell, dofs);
+  CellField<dim> result(own.n_shapes);
+  for (unsigned int i = 0; i < own.n_shapes; ++i)
     for (unsigned int c = 0; c < dim; ++c)
-      result[i][c] = u(dof(dofs, i, c));
+      result[i][c] = u(dofs[own.numbers[i][c]]);
   return result;
 }
 

@@ -41,7 +41,7 @@ PrimalSystem<dim>::PrimalSystem(const PrimalSpace<dim> &space)
     : f(space.ghosted_vector()), space(space), stiffness(space)
 {
   if (space.scene.has_initial_strain())
-    strains = std::make_unique<const StrainLoads<dim>>(space.scene, space, space.tables.degree + 1);
+    strains = std::make_unique<const StrainLoads<dim>>(space.scene, space, 1);
   std::vector<double> far; // what acts on nodes opposite
   if (space.opposite)
   {
@@ -80,14 +80,15 @@ void PrimalSystem<dim>::assemble_with_opposite(const Cell &cell, std::vector<dou
 {
   if constexpr (dim == 3)
   {
-    const unsigned int n = space.tables.fe.dofs_per_cell;
+    const BoxTables<dim> &tables = space.tables.of(cell);
+    const unsigned int n = tables.fe.dofs_per_cell;
     Vector<double> u(n), internal(n);
     cell->get_dof_values(*lifted, u);
     stiffness.multiply(cell, internal, u);
     const CellField<dim> loads = load(cell);
     for (unsigned int i = 0; i < loads.size(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        internal[space.tables.numbers[i][c]] -= loads[i][c];
+        internal[tables.numbers[i][c]] -= loads[i][c];
     const CellBasis basis = cell_basis(space, cell);
     for (unsigned int j = 0; j < basis.unknowns.size(); ++j)
     {
@@ -106,9 +107,7 @@ void PrimalSystem<dim>::assemble_with_opposite(const Cell &cell, std::vector<dou
 template <int dim>
 void PrimalSystem<dim>::assemble_loads(std::vector<double> &far)
 {
-  const FESystem<dim> &fe = space.tables.fe;
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
-  Vector<double> nodal(fe.dofs_per_cell), F(fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
@@ -117,15 +116,16 @@ void PrimalSystem<dim>::assemble_loads(std::vector<double> &far)
         assemble_with_opposite(cell, far);
         continue;
       }
+      const BoxTables<dim> &tables = space.tables.take_dofs(cell, dofs);
       const CellField<dim> loads = load(cell);
+      Vector<double> nodal(dofs.size()), F(dofs.size());
       for (unsigned int i = 0; i < loads.size(); ++i)
         for (unsigned int c = 0; c < dim; ++c)
-          nodal[space.tables.numbers[i][c]] = loads[i][c];
+          nodal[tables.numbers[i][c]] = loads[i][c];
       if (any(space.moment_components(cell)))
         basis_of_moments(space, cell).Tvmult(F, nodal);
       else
         F = nodal;
-      cell->get_dof_indices(dofs);
       const bool needs_matrix = std::any_of(
           dofs.begin(), dofs.end(),
           [this](const auto dof) { return space.constraints.is_inhomogeneously_constrained(dof); });
@@ -176,8 +176,8 @@ void PrimalSystem<dim>::add_with_opposite(const Cell &cell)
     const FullMatrix<double> &K = stiffness.nodal(cell);
     const CellBasis basis = cell_basis(space, cell);
     A.add(basis.unknowns, basis.transformed(K));
-    std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
-    cell->get_dof_indices(dofs);
+    std::vector<types::global_dof_index> dofs;
+    space.tables.take_dofs(cell, dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i)
       if (space.constraints.is_constrained(dofs[i]))
         A.add(dofs[i], dofs[i], K(i, i));
@@ -195,13 +195,13 @@ TrilinosWrappers::SparseMatrix &PrimalSystem<dim>::matrix()
     SparsityTools::distribute_sparsity_pattern(pattern, space.owned, space.communicator(), rows);
     A.reinit(space.owned, space.owned, pattern, space.communicator());
   }
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned() && is_slave_cell(cell))
       add_with_opposite(cell);
     else if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
+      space.tables.take_dofs(cell, dofs);
       space.constraints.distribute_local_to_global(stiffness(cell), dofs, A);
     }
   A.compress(VectorOperation::add);
@@ -211,12 +211,12 @@ TrilinosWrappers::SparseMatrix &PrimalSystem<dim>::matrix()
 template <int dim>
 CellField<dim> PrimalSystem<dim>::body_load(const Cell &cell) const
 {
-  CellField<dim> result(space.tables.n_shapes);
+  CellField<dim> result(space.tables.of(cell).n_shapes);
   if (space.scene.has_body_force())
   {
     const CellMap<dim> map = map_of<dim>(cell);
     integrate<dim>(
-        space.scene.body_force_in(cell), space.tables.cell, map,
+        space.scene.body_force_in(cell), space.tables.of(cell).cell, map,
         [&](const Point<dim> &x) { return std::abs(determinant(map.jacobian(x))); }, result);
   }
   return result;
@@ -225,12 +225,12 @@ CellField<dim> PrimalSystem<dim>::body_load(const Cell &cell) const
 template <int dim>
 CellField<dim> PrimalSystem<dim>::side_load(const Cell &cell, const unsigned int face) const
 {
-  CellField<dim> result(space.tables.n_shapes);
+  CellField<dim> result(space.tables.of(cell).n_shapes);
   if (cell->at_boundary(face) && space.condition(cell, face).has_traction())
   {
     const CellMap<dim> map = map_of<dim>(cell);
     integrate<dim>(
-        space.condition(cell, face).traction, space.tables.faces[face], map,
+        space.condition(cell, face).traction, space.tables.of(cell).faces[face], map,
         [&](const Point<dim> &x) { return map.face_measure(face, x); }, result);
   }
   return result;
@@ -257,11 +257,11 @@ template <int dim>
 double PrimalSystem<dim>::energy_product(const DistributedVector &u) const
 {
   double sum = 0;
-  const FESystem<dim> &fe = space.tables.fe;
-  Vector<double> local(fe.dofs_per_cell), internal(fe.dofs_per_cell);
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
+      const unsigned int n = space.tables.of(cell).fe.dofs_per_cell;
+      Vector<double> local(n), internal(n);
       cell->get_dof_values(u, local);
       stiffness.multiply(cell, internal, local);
       sum += internal * local;
@@ -303,18 +303,18 @@ template <int dim>
 DistributedVector PrimalSystem<dim>::strain_loads() const
 {
   DistributedVector result = space.ghosted_vector();
-  std::vector<types::global_dof_index> dofs(space.tables.fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   collectively(space.communicator(),
                [&]()
                {
                  for (const Cell &cell : space.dof_handler.active_cell_iterators())
                    if (cell->is_locally_owned() && strains)
                    {
-                     cell->get_dof_indices(dofs);
+                     const BoxTables<dim> &tables = space.tables.take_dofs(cell, dofs);
                      const CellField<dim> loads = strains->load(cell);
                      for (unsigned int i = 0; i < loads.size(); ++i)
                        for (unsigned int c = 0; c < dim; ++c)
-                         result(dofs[space.tables.numbers[i][c]]) += loads[i][c];
+                         result(dofs[tables.numbers[i][c]]) += loads[i][c];
                    }
                });
   result.compress(VectorOperation::add);
@@ -358,13 +358,12 @@ double PrimalSystem<dim>::initial_energy(const DistributedVector &u) const
 template <int dim>
 void PrimalSystem<dim>::add_nodal_forces(const DistributedVector &u, NodalForces &forces) const
 {
-  const FESystem<dim> &fe = space.tables.fe;
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
-  Vector<double> local(fe.dofs_per_cell), internal(fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const Cell &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
+      const FESystem<dim> &fe = space.tables.take_dofs(cell, dofs).fe;
+      Vector<double> local(dofs.size()), internal(dofs.size());
       cell->get_dof_values(u, local);
       stiffness.multiply(cell, internal, local);
       const CellField<dim> loads = load(cell);

@@ -28,13 +28,12 @@ template <int dim>
 void set_on_curved(const PrimalSpace<dim> &space, const ContactDofFace<dim> &face,
                    std::vector<double> &motions)
 {
-  const BoxTables<dim> &tables = space.tables;
   const unsigned int n = space.owned.n_elements();
   const Point<dim> centre = space.scene.geometry.centre();
   const double length = space.scene.geometry.radius();
   const CellMap<dim> map = map_of<dim>(face.cell);
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  face.cell->get_dof_indices(dofs);
+  std::vector<types::global_dof_index> dofs;
+  const BoxTables<dim> &tables = space.tables.take_dofs(face.cell, dofs);
   const auto at_nodes = [&](const std::vector<unsigned int> &shapes, const unsigned int m)
   {
     Vector<double> result(dim * shapes.size());
@@ -65,15 +64,14 @@ template <int dim>
 std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
 {
   const unsigned int n = space.owned.n_elements();
-  const FESystem<dim> &fe = space.tables.fe;
   const Point<dim> centre = space.scene.geometry.centre();
   const double length = space.scene.geometry.radius();
   std::vector<double> result(n * n_motions<dim>, 0.);
-  std::vector<types::global_dof_index> dofs(fe.dofs_per_cell);
+  std::vector<types::global_dof_index> dofs;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
-      cell->get_dof_indices(dofs);
+      const FESystem<dim> &fe = space.tables.take_dofs(cell, dofs).fe;
       const CellMap<dim> map = map_of<dim>(cell);
       for (unsigned int i = 0; i < fe.dofs_per_cell; ++i)
         if (space.owned.is_element(dofs[i]) && !space.constraints.is_constrained(dofs[i]))
@@ -86,7 +84,7 @@ std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
     }
   for (const ContactDofFace<dim> &face : space.faces)
   {
-    face.cell->get_dof_indices(dofs);
+    const BoxTables<dim> &tables = space.tables.take_dofs(face.cell, dofs);
     const bool is_jump =
         space.condition(face.cell, face.face).pair.has_value(); // all bodies move alike
     if (face.is_curved() && !is_jump)
@@ -94,13 +92,13 @@ std::vector<double> rigid_motions(const PrimalSpace<dim> &space)
       set_on_curved(space, face, result);
       continue;
     }
-    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+    for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
     {
       const Tensor<1, dim> arm = space.contact[face.first() + k].centroid - centre;
       for (const unsigned int c : face.components())
         for (unsigned int m = 0; m < n_motions<dim>; ++m)
           result[m * n + space.owned.index_within_set(
-                             dofs[space.tables.numbers[space.tables.inner[face.face][k]][c]])] =
+                             dofs[tables.numbers[tables.inner[face.face][k]][c]])] =
               is_jump ? 0. : rigid_motion<dim>(m, arm / length) * face.direction(c);
     }
   }

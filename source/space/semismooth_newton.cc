@@ -290,7 +290,7 @@ void SemismoothNewton<dim>::count(const std::vector<ContactDofState<dim>> &state
 {
   unsigned int slipping = 0, pressing = 0;
   for (const ContactDofFace<dim> &face : space.faces)
-    for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+    for (unsigned int k = 0; k < space.tables.of(face.cell).n_contact_dofs(); ++k)
     {
       const bool presses = face.has_pressure() && states[face.pressure + k].is_held;
       pressing += presses;

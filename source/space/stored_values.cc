@@ -74,27 +74,31 @@ bool take_stored(const Vector<double> &stored_u, const Vector<double> &stored_z,
                  const PrimalSpace<dim> &space, DistributedVector &u,
                  std::vector<ContactVector<dim>> &lambda)
 {
-  const unsigned int n = space.tables.fe.dofs_per_cell;
   const auto ranks = global_cell_indices(space.dof_handler.get_triangulation());
   u = space.ghosted_vector();
   lambda.assign(space.contact.size(), ContactVector<dim>());
-  CellNumbers sizes; // of the multiplier
+  CellNumbers sizes; // of u and the multiplier
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
-      sizes.emplace_back(ranks[cell->active_cell_index()],
-                         std::vector<double>(1, values_on(cell, space, u, lambda).lambda.size()));
-  std::vector<std::size_t> first(1, 0);
+      sizes.emplace_back(
+          ranks[cell->active_cell_index()],
+          std::vector<double>{double(space.tables.of(cell).fe.dofs_per_cell),
+                              double(values_on(cell, space, u, lambda).lambda.size())});
+  std::vector<std::size_t> first_u(1, 0), first_z(1, 0);
   for (const auto &size : join_cells(sizes, n_cells(space), space.communicator()))
-    first.push_back(first.back() + size.front());
-  if (stored_u.size() != std::size_t(n) * n_cells(space) || stored_z.size() != first.back())
+  {
+    first_u.push_back(first_u.back() + size[0]);
+    first_z.push_back(first_z.back() + size[1]);
+  }
+  if (stored_u.size() != first_u.back() || stored_z.size() != first_z.back())
     return false;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
     {
       const auto k = ranks[cell->active_cell_index()];
       take_values<dim>(cell,
-                       {{stored_u.begin() + n * k, stored_u.begin() + n * (k + 1)},
-                        {stored_z.begin() + first[k], stored_z.begin() + first[k + 1]}},
+                       {{stored_u.begin() + first_u[k], stored_u.begin() + first_u[k + 1]},
+                        {stored_z.begin() + first_z[k], stored_z.begin() + first_z[k + 1]}},
                        space, u, lambda);
     }
   u.zero_out_ghost_values();

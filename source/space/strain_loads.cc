@@ -13,11 +13,20 @@ using namespace dealii;
 
 template <int dim>
 StrainLoads<dim>::StrainLoads(const Scene<dim> &scene, const PrimalSpace<dim> &space,
-                              const unsigned int n_points)
-    : scene(scene), space(space),
-      table(tabulate<dim>(space.tables.degree, QGauss<dim>(n_points).get_points(),
-                          QGauss<dim>(n_points).get_weights(), false))
+                              const unsigned int finer)
+    : scene(scene), space(space)
 {
+  for (const BoxTables<dim> &own : space.tables.all)
+  {
+    const QGauss<dim> rule(finer * (own.degree + 1));
+    tables.push_back(tabulate<dim>(own.degree, rule.get_points(), rule.get_weights(), false));
+  }
+}
+
+template <int dim>
+const ShapeTable<dim> &StrainLoads<dim>::table_on(const Cell &cell) const
+{
+  return tables[space.tables.number_of(cell)];
 }
 
 template <int dim>
@@ -32,6 +41,7 @@ template <class Take>
 void StrainLoads<dim>::for_each_point(const Cell &cell, const Take &take) const
 {
   const CellMap<dim> map = map_of<dim>(cell);
+  const ShapeTable<dim> &table = table_on(cell);
   const HookesLaw<dim> law(scene.material_of(cell));
   for (unsigned int q = 0; q < table.points.size(); ++q)
   {
@@ -45,9 +55,10 @@ void StrainLoads<dim>::for_each_point(const Cell &cell, const Take &take) const
 template <int dim>
 CellField<dim> StrainLoads<dim>::load(const Cell &cell) const
 {
-  CellField<dim> result(space.tables.n_shapes);
+  CellField<dim> result(space.tables.of(cell).n_shapes);
   if (!is_strained(cell))
     return result;
+  const ShapeTable<dim> &table = table_on(cell);
   for_each_point(cell,
                  [&](const unsigned int q, const Tensor<2, dim> &, const Tensor<2, dim> &stress,
                      const Tensor<2, dim> &inverse)

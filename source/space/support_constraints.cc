@@ -49,13 +49,13 @@ bool is_on_line(const Point<3> &x, const unsigned int line)
 template <int dim>
 std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
                                                 const DoFHandler<dim> &dof_handler,
-                                                const BoxTables<dim> &tables)
+                                                const DegreeTables<dim> &tables)
 {
   std::map<types::global_dof_index, SupportedNode<dim>> nodes;
   std::map<unsigned int, std::vector<Support<dim>>> of_edge;
-  std::vector<types::global_dof_index> dofs(tables.fe.dofs_per_cell);
-  const auto add =
-      [&](const unsigned int shape, const CellMap<dim> &map, const Support<dim> &support)
+  std::vector<types::global_dof_index> dofs;
+  const auto add = [&](const BoxTables<dim> &tables, const unsigned int shape,
+                       const CellMap<dim> &map, const Support<dim> &support)
   {
     const auto &numbers = tables.numbers[shape];
     SupportedNode<dim> &node = nodes[dofs[numbers[0]]];
@@ -78,10 +78,10 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
         continue;
       const CellMap<dim> map = map_of<dim>(cell);
       const Support<dim> support{&boundary, normal_of_face(map, face)};
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < tables.n_shapes; ++i)
-        if (tables.fe.has_support_on_face(tables.numbers[i][0], face))
-          add(i, map, support);
+      const BoxTables<dim> &own = tables.take_dofs(cell, dofs);
+      for (unsigned int i = 0; i < own.n_shapes; ++i)
+        if (own.fe.has_support_on_face(own.numbers[i][0], face))
+          add(own, i, map, support);
       if constexpr (dim == 3)
         for (unsigned int l = 0; l < GeometryInfo<2>::lines_per_cell; ++l)
           of_edge[cell->face(face)->line_index(l)].push_back(support);
@@ -95,11 +95,11 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
             if (const auto found = of_edge.find(cell->line(l)->child_index(half));
                 found != of_edge.end())
             {
-              cell->get_dof_indices(dofs);
-              for (unsigned int i = 0; i < tables.n_shapes; ++i)
-                if (is_on_line(tables.fe.unit_support_point(tables.numbers[i][0]), l))
+              const BoxTables<dim> &own = tables.take_dofs(cell, dofs);
+              for (unsigned int i = 0; i < own.n_shapes; ++i)
+                if (is_on_line(own.fe.unit_support_point(own.numbers[i][0]), l))
                   for (const Support<dim> &support : found->second)
-                    add(i, map_of<dim>(cell), support);
+                    add(own, i, map_of<dim>(cell), support);
             }
   std::vector<SupportedNode<dim>> result;
   for (auto &node : nodes)
@@ -109,7 +109,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
 
 template <int dim>
 void constrain_supports(const Scene<dim> &scene, const DoFHandler<dim> &dof_handler,
-                        const BoxTables<dim> &tables, const IndexSet &relevant,
+                        const DegreeTables<dim> &tables, const IndexSet &relevant,
                         AffineConstraints<double> &constraints)
 {
   constraints.reinit(relevant);
@@ -123,11 +123,11 @@ void constrain_supports(const Scene<dim> &scene, const DoFHandler<dim> &dof_hand
 }
 
 template std::vector<SupportedNode<2>> supported_nodes(const Scene<2> &, const DoFHandler<2> &,
-                                                       const BoxTables<2> &);
+                                                       const DegreeTables<2> &);
 template std::vector<SupportedNode<3>> supported_nodes(const Scene<3> &, const DoFHandler<3> &,
-                                                       const BoxTables<3> &);
-template void constrain_supports(const Scene<2> &, const DoFHandler<2> &, const BoxTables<2> &,
+                                                       const DegreeTables<3> &);
+template void constrain_supports(const Scene<2> &, const DoFHandler<2> &, const DegreeTables<2> &,
                                  const IndexSet &, AffineConstraints<double> &);
-template void constrain_supports(const Scene<3> &, const DoFHandler<3> &, const BoxTables<3> &,
+template void constrain_supports(const Scene<3> &, const DoFHandler<3> &, const DegreeTables<3> &,
                                  const IndexSet &, AffineConstraints<double> &);
 } // namespace hpvi

@@ -12,13 +12,14 @@ template <int dim>
 CellValues values_on(const typename PrimalSpace<dim>::Cell &cell, const PrimalSpace<dim> &space,
                      const DistributedVector &u, const std::vector<ContactVector<dim>> &lambda)
 {
-  Vector<double> local(space.tables.fe.dofs_per_cell);
+  const BoxTables<dim> &tables = space.tables.of(cell);
+  Vector<double> local(tables.fe.dofs_per_cell);
   cell->get_dof_values(u, local);
   CellValues result{{local.begin(), local.end()}, {}};
   for (const unsigned int number : cell->face_indices())
     if (const ContactDofFace<dim> *const face = space.moment_face(cell, number))
       for (const unsigned int first : {face->friction, face->pressure})
-        for (unsigned int k = 0; first != none && k < space.tables.n_contact_dofs(); ++k)
+        for (unsigned int k = 0; first != none && k < tables.n_contact_dofs(); ++k)
           for (unsigned int s = 0; s < space.contact[first].n_unknowns(); ++s)
             result.lambda.push_back(lambda[first + k][s]);
   return result;
@@ -45,7 +46,8 @@ void take_multiplier(const PrimalSpace<dim> &space,
                      const std::vector<bool> &parent_components, const std::vector<double> &values,
                      std::vector<ContactVector<dim>> &lambda)
 {
-  const unsigned int n = space.tables.n_contact_dofs();
+  const BoxTables<dim> &tables = space.tables.of(cell);
+  const unsigned int n = tables.n_contact_dofs();
   const unsigned int child = child_number<dim>(cell, parent);
   unsigned int first = 0; // of the values on a face
   for (const unsigned int number : cell->face_indices())
@@ -60,13 +62,13 @@ void take_multiplier(const PrimalSpace<dim> &space,
       {
         const ContactDofFace<dim> &face = *space.moment_face(dof_cell, number);
         const unsigned int own = (is_friction ? face.friction : face.pressure) + k;
-        const Point<dim> &own_x = space.tables.moment_points[number].points[k],
+        const Point<dim> &own_x = tables.moment_points[number].points[k],
                          x = child == none
                                  ? own_x
                                  : GeometryInfo<dim>::child_to_cell_coordinates(own_x, child);
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int s = 0; s < n_components; ++s)
-            lambda[own][s] += values[first + j * n_components + s] * space.tables.psi(j, number, x);
+            lambda[own][s] += values[first + j * n_components + s] * tables.psi(j, number, x);
       }
       first += n * n_components;
     }
@@ -80,7 +82,8 @@ void take_values(const typename Triangulation<dim>::cell_iterator &cell, const C
                  std::vector<ContactVector<dim>> &lambda)
 {
   const typename DoFHandler<dim>::cell_iterator dof_cell(*cell, &space.dof_handler);
-  dof_cell->set_dof_values_by_interpolation(Vector<double>(values.u.begin(), values.u.end()), u);
+  dof_cell->set_dof_values_by_interpolation(Vector<double>(values.u.begin(), values.u.end()), u,
+                                            space.tables.number_of(cell));
   const std::vector<bool> components = space.moment_components(cell);
   if (cell->is_active())
     take_multiplier(space, cell, cell, components, values.lambda, lambda);
@@ -111,10 +114,10 @@ void Transfer<dim>::unpack(const PrimalSpace<dim> &space, DistributedVector &u,
 {
   u = space.ghosted_vector();
   lambda.assign(space.contact.size(), ContactVector<dim>());
-  const unsigned int n = space.tables.fe.dofs_per_cell;
   const auto take = [&](const Cell &cell, const auto, const auto &range)
   {
     const auto data = Utilities::unpack<std::vector<double>>(range.begin(), range.end(), false);
+    const unsigned int n = space.tables.of(cell).fe.dofs_per_cell;
     const CellValues values{{data.begin(), data.begin() + n}, {data.begin() + n, data.end()}};
     take_values(cell, values, space, u, lambda);
   };

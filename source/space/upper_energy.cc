@@ -22,7 +22,8 @@ double missed_on(const typename PrimalSpace<dim>::Cell &cell, const unsigned int
                  const PrimalSpace<dim> &space, const DistributedVector &u)
 {
   const BoundaryCondition<dim> &condition = space.condition(cell, face);
-  const QGauss<dim - 1> points(space.tables.degree + 2);
+  const BoxTables<dim> &tables = space.tables.of(cell);
+  const QGauss<dim - 1> points(tables.degree + 2);
   const CellField<dim> field = space.field(cell, u);
   const CellMap<dim> map = map_of<dim>(cell);
   double largest = 0;
@@ -31,7 +32,7 @@ double missed_on(const typename PrimalSpace<dim>::Cell &cell, const unsigned int
     const Point<dim> reference = point_on_face<dim>(face, point), x = map.point(reference);
     Tensor<1, dim> value;
     for (unsigned int i = 0; i < field.size(); ++i)
-      value += space.tables.fe.shape_value(space.tables.numbers[i][0], reference) * field[i];
+      value += tables.fe.shape_value(tables.numbers[i][0], reference) * field[i];
     for (unsigned int c = 0; c < dim; ++c)
       if (condition.displacement[c])
         largest = std::max(largest, std::abs(value[c] - condition.displacement[c]->value(x)));
@@ -72,8 +73,7 @@ double upper_energy(const PrimalSpace<dim> &space, const DistributedVector &u,
       scene.has_coulomb_friction() ||
       missed_displacement(space, u) > round_off_of_supports * u.linfty_norm())
     return none;
-  const double finer = load_work(scene, space, u, 2 * (space.tables.degree + 1)),
-               difference = std::abs(finer - work);
+  const double finer = load_work(scene, space, u, 2), difference = std::abs(finer - work);
   return difference > 1e-3 * std::abs(finer) ? none : energies.energy + work - finer + difference;
 }
 

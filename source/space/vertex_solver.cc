@@ -19,8 +19,8 @@ using Dof = types::global_dof_index;
 } // namespace
 
 VertexSolver::VertexSolver(const MultigridLevel<float> &level)
-    : level(level), tables(1), dof_handler(level.space.dof_handler.get_triangulation()),
-      inserted(level.space.contact.size())
+    : level(level), linear(1), tables(linear.only()),
+      dof_handler(level.space.dof_handler.get_triangulation()), inserted(level.space.contact.size())
 {
   number();
   find_opposite();
@@ -33,43 +33,47 @@ VertexSolver::VertexSolver(const MultigridLevel<float> &level)
 void VertexSolver::number()
 {
   const PrimalSpace<3> &space = level.space;
-  dof_handler.distribute_dofs(tables.fe);
+  linear.distribute_dofs(dof_handler);
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
   constraints.reinit(relevant);
-  constrain_plates(space.scene, dof_handler, tables, relevant, constraints);
+  constrain_plates(space.scene, dof_handler, linear, relevant, constraints);
   std::set<Dof> on_plates; // first components
   collectively(space.communicator(),
                [&]()
                {
-                 for (const SupportedNode<3> &node : plate_nodes(space.scene, dof_handler, tables))
+                 for (const SupportedNode<3> &node : plate_nodes(space.scene, dof_handler, linear))
                    on_plates.insert(node.dofs[0]);
                });
-  const FE_Q<3> linear(1), of_level(space.tables.degree);
-  const auto &points = of_level.get_unit_support_points();
-  for (const Point<3> &x : points)
+  for (const BoxTables<3> &of_level : space.tables.all)
   {
-    weights.emplace_back();
-    for (unsigned int j = 0; j < 8; ++j)
-      weights.back()[j] = linear.shape_value(j, x);
+    first_weights.push_back(weights.size());
+    for (const auto &components : of_level.numbers)
+    {
+      weights.emplace_back();
+      for (unsigned int j = 0; j < 8; ++j)
+        weights.back()[j] = GeometryInfo<3>::d_linear_shape_function(
+            of_level.fe.unit_support_point(components[0]), j);
+    }
   }
-  std::vector<Dof> own(tables.fe.dofs_per_cell), of_mesh(space.tables.fe.dofs_per_cell);
+  std::vector<Dof> own, of_mesh;
   const auto corners = [&](const auto &cell)
   {
-    DoFHandler<3>::active_cell_iterator(*cell, &dof_handler)->get_dof_indices(own);
-    cell->get_dof_indices(of_mesh);
+    linear.take_dofs(DoFHandler<3>::active_cell_iterator(*cell, &dof_handler), own);
+    space.tables.take_dofs(cell, of_mesh);
   };
   std::vector<Dof> of_own_cells;
   for (const auto &cell : space.dof_handler.active_cell_iterators())
     if (!cell->is_artificial())
     {
       corners(cell);
+      const auto &numbers = space.tables.of(cell).numbers;
       for (unsigned int j = 0; j < 8; ++j) // nodes at corners come first
         for (unsigned int c = 0; c < 3; ++c)
         {
           const Dof dof = own[tables.numbers[j][c]];
-          if (space.constraints.is_constrained(of_mesh[space.tables.numbers[j][c]]) &&
+          if (space.constraints.is_constrained(of_mesh[numbers[j][c]]) &&
               !constraints.is_constrained(dof) && on_plates.count(own[tables.numbers[j][0]]) == 0)
-            copy_constraint(of_mesh, j, c, own);
+            copy_constraint(cell, of_mesh, j, c, own);
           if (cell->is_locally_owned())
             of_own_cells.push_back(dof);
         }
@@ -103,12 +107,14 @@ void VertexSolver::number()
       for (unsigned int j = 0; j < 8; ++j)
         cells.back().vertices[j] =
             residual.get_partitioner()->global_to_local(own[tables.numbers[j][0]]);
-      for (unsigned int i = 0; i < points.size(); ++i)
-        if (const Dof dof = of_mesh[space.tables.numbers[i][0]]; space.owned.is_element(dof))
+      const auto &numbers = space.tables.of(cell).numbers;
+      const unsigned int first = first_weights[space.tables.number_of(cell)];
+      for (unsigned int i = 0; i < numbers.size(); ++i)
+        if (const Dof dof = of_mesh[numbers[i][0]]; space.owned.is_element(dof))
         {
           const unsigned int local = space.owned.index_within_set(dof);
           if (!is_taken[local])
-            nodes.push_back({local, static_cast<unsigned short>(i)});
+            nodes.push_back({local, static_cast<unsigned short>(first + i)});
           is_taken[local] = true;
         }
       cells.back().end = nodes.size();
@@ -116,16 +122,18 @@ void VertexSolver::number()
 }
 
 /** Of a component at a corner, which is prescribed or depends on others there: no corner of the coarsest mesh hangs. */
-void VertexSolver::copy_constraint(const std::vector<Dof> &of_mesh, const unsigned int corner,
+void VertexSolver::copy_constraint(const PrimalSpace<3>::Cell &cell,
+                                   const std::vector<Dof> &of_mesh, const unsigned int corner,
                                    const unsigned int component, const std::vector<Dof> &own)
 {
   const PrimalSpace<3> &space = level.space;
   const Dof dof = own[tables.numbers[corner][component]];
+  const auto &numbers = space.tables.of(cell).numbers;
   constraints.add_line(dof);
   for (const auto &[other, weight] :
-       *space.constraints.get_constraint_entries(of_mesh[space.tables.numbers[corner][component]]))
+       *space.constraints.get_constraint_entries(of_mesh[numbers[corner][component]]))
     for (unsigned int c = 0; c < 3; ++c)
-      if (of_mesh[space.tables.numbers[corner][c]] == other)
+      if (of_mesh[numbers[corner][c]] == other)
         constraints.add_entry(dof, own[tables.numbers[corner][c]], weight);
 }
 
@@ -150,7 +158,7 @@ void VertexSolver::assemble()
   }
   const Point<3> centre = space.scene.geometry.centre();
   const double length = space.scene.geometry.radius();
-  const ElasticFoundation<3> foundation(space.scene, tables);
+  const ElasticFoundation<3> foundation(space.scene, linear);
   motions.resize(owned.n_elements() * n_motions<3>);
   std::vector<Dof> dofs(tables.fe.dofs_per_cell);
   for (const auto &cell : dof_handler.active_cell_iterators())
@@ -212,15 +220,16 @@ void VertexSolver::find_opposite()
       if (vertices[4] >> j & 1u)
         held.insert(vertices[j / 3] + j % 3);
     unsigned int i = 0;
-    for (const auto *const shapes :
-         {&space.tables.rim[master.face], &space.tables.inner[master.face]})
+    const BoxTables<3> &of_master = space.tables.all[master.tables];
+    for (const auto *const shapes : {&of_master.rim[master.face], &of_master.inner[master.face]})
       for (const unsigned int shape : *shapes)
       {
         auto &weighted = opposite[master.nodes[i++].first];
         weighted.clear();
         for (unsigned int j = 0; j < 4; ++j)
-          weighted.emplace_back(
-              vertices[j], weights[shape][GeometryInfo<3>::face_to_cell_vertices(master.face, j)]);
+          weighted.emplace_back(vertices[j],
+                                weights[first_weights[master.tables] + shape]
+                                       [GeometryInfo<3>::face_to_cell_vertices(master.face, j)]);
       }
   }
 }
@@ -268,7 +277,9 @@ void VertexSolver::find_contact()
     faces.emplace_back();
     faces.back().face = &face;
     const FaceContactDofs &contact_dofs = space.contact_dofs_on(face);
-    faces.back().means.resize(space.tables.n_contact_dofs(), std::vector<double>(4));
+    const BoxTables<3> &of_mesh = space.tables.of(face.cell);
+    const unsigned int first = first_weights[space.tables.number_of(face.cell)];
+    faces.back().means.resize(of_mesh.n_contact_dofs(), std::vector<double>(4));
     for (unsigned int j = 0; j < 4; ++j)
     {
       const unsigned int corner = GeometryInfo<3>::face_to_cell_vertices(face.face, j);
@@ -282,17 +293,17 @@ void VertexSolver::find_contact()
         if (face.is_curved()) // near enough for what only precedes others
         {
           mean = GeometryInfo<3>::d_linear_shape_function(
-              space.tables.moment_points[face.face].points[k], corner);
+              of_mesh.moment_points[face.face].points[k], corner);
           continue;
         }
         const auto add =
             [&](const FullMatrix<double> &matrix, const std::vector<unsigned int> &shapes)
         {
           for (unsigned int i = 0; i < shapes.size(); ++i)
-            mean += matrix(k, i) * weights[shapes[i]][corner];
+            mean += matrix(k, i) * weights[first + shapes[i]][corner];
         };
-        add(contact_dofs.M, space.tables.inner[face.face]);
-        add(contact_dofs.W, space.tables.rim[face.face]);
+        add(contact_dofs.M, of_mesh.inner[face.face]);
+        add(contact_dofs.W, of_mesh.rim[face.face]);
       }
     }
     if (space.opposite)

@@ -67,6 +67,7 @@ invalid "Probe tip/On = top" "is no boundary" "upper.bottom" -- "Probe tip/On=to
 
 # --- each body by itself
 invalid "Body upper/Shape = cone" "give box, quadrilateral" -- "Body upper/Shape=cone"
+invalid "Body upper/Start degree = 3" "is for bodies in space" "Adaptivity/Start degree" -- "Body upper/Start degree=3"
 invalid "Body upper/Surfaces = a" "are those of a mesh file" "Shape = file" -- "Body upper/Surfaces=a"
 invalid "missing.msh" "Body upper/File" -- "Body upper/Shape=file" "Body upper/File=missing.msh"
 invalid "Body upper/Upper corner = 0, 0" "not above and right of the lower corner (1, 1)" -- "Body upper/Upper corner=0, 0"

@@ -95,6 +95,13 @@ blocks "Contact joint/Law" "needs bodies that touch" -- "Contact joint/Law=tied"
 blocks "Contact joint/Friction bound" "means nothing where bodies are tied" -- "Contact joint/Law=tied" "Contact joint/Friction bound=1"
 blocks "Body high" "leave a rigid-body motion free" "no friction resists it" "tie it to a body that is held" -- "Boundary high.top/Displacement=" "Contact joint/Law=bilateral"
 blocks "Boundary low.top/Traction" "Contact joint has all of this side" -- "Boundary low.top/Traction=0; 1; 0"
+blocks "Body high/Start degree = 9" "is not offered by space" "give 2 to 8" -- "Body high/Start degree=9"
+blocks "Body low/Start degree = 1" "is not offered by space" -- "Body high/Start degree=4" "Body low/Start degree=1"
+blocks "Adaptivity/Start degree = 9" "is not offered by space" -- "Body high/Start degree=4" "Adaptivity/Start degree=9"
+blocks "Body low/Start degree = x" "an integer from 0 to 20" -- "Body low/Start degree=x"
+blocks "Solver/Linear = multigrid" "is for degrees 2 to 4" "Body low/Start degree is 5" -- "Body low/Start degree=5" "Solver/Linear=multigrid"
+blocks "Adaptivity/Maximum unknowns = 1" "at least 48 free unknowns of degree 3" -- "Body high/Start degree=4" "Adaptivity/Start degree=3" "Adaptivity/Maximum unknowns=1"
+invalid "Geometry" "Body" -- "Body block/Start degree=3"
 
 # --- what is of the plane
 invalid "Material/Plane" "unknown entry" "only a body in the plane" -- "Material/Plane=stress"

@@ -36,7 +36,7 @@ UNITS = {
 WITHOUT = """Title Dimension Units/Length Units/Stress Shape Angles Angle Part File Subdivisions Grading=levels Where Poisson's=ratio Poisson's=ratios
 Initial=strain Thermal=expansion Plane Thickness Elasticity Axes Gravity Temperature/Expression Exact=solution/Solution Symmetry Rigid Rotation Contact
 Contact=direction Friction=coefficient Friction=law Curve On Loading/Steps Adapt Until=steady Maximum=cycles Output/Steps VTU Mesh=picture Contact=tables Reference=solution Bound
-Bound=on=distorted=cells Length=unit Mesh=size=from=curvature Curves Surfaces Material Between Law Slave Points""".replace("=", "\0").split()
+Bound=on=distorted=cells Length=unit Mesh=size=from=curvature Curves Surfaces Material Between Law Slave Points Start=degree""".replace("=", "\0").split()
 UNITS.update({entry.replace("\0", " "): None for entry in WITHOUT})
 # Entries of geometries have defaults that mean nothing to other shapes, and may not be named there.
 OF_SHAPES = {"box": ["Lower corner", "Upper corner"], "quadrilateral": ["Corners"], "ring sector": ["Centre", "Radii", "Angles"],

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """space_bodies.py HPVI held|floating|files MPIRUN: boxes in space whose meshes do not match. Held by supports a uniform pressure
-passes from one to the other exactly, with hanging nodes, for all degrees and on one to three processes; forces balance on each
-body; either may be the slave; on a stiff body the other one is as on a rigid floor. Layers between planes of symmetry are the runs
+passes from one to the other exactly, with hanging nodes, for all degrees, also one a body, and on one to three
+processes; forces balance on each body; either may be the slave; on a stiff body the other one is as on a rigid floor. Layers between planes of symmetry are the runs
 of the plane, held and held by contact alone; a stack of three has one energy by all solvers and on one to three processes, and
 what no contact holds is named. Volumes of one mesh file, whose faces are any quadrilaterals and turned about two axes, pass a pressure
 as boxes do, are boxes where they have their cells, and are found by Between = automatic."""
@@ -276,6 +276,8 @@ def check_pressure(scratch):
     for degree, extra, processes in ((2, GRADED, 1), (3, GRADED, 1), (4, [], 1), (2, GRADED, 2), (3, [], 3),
                                      (2, ["Contact joint/Slave=high.bottom"], 1), (2, ["Solver/Linear=amg"], 1),
                                      (2, ["Solver/Linear=direct", *GRADED], 2),
+                                     (2, ["Body high/Start degree=4", *GRADED], 1), (4, ["Body high/Start degree=2", *GRADED], 1),
+                                     (2, ["Body low/Start degree=3", *GRADED], 3), (3, ["Body low/Start degree=2", "Contact joint/Slave=high.bottom"], 2),
                                      (2, ["Contact joint/Law=bilateral", "Contact joint/Gap=", "Boundary high.top/Symmetry=false",
                                           "Boundary high.top/Traction=0; -0.1; 0"], 1)):
         name = (degree, extra, processes)
@@ -295,6 +297,29 @@ def check_bodies_of_cells(out):
         expect(len(grid["body"]) == len(grid["cells"]) > 0, path.name)
         for cell, body in zip(grid["cells"], grid["body"]):
             expect(body == (max(grid["points"][k][1] for k in cell) < 1.001), path.name, body)
+
+
+def check_degrees(scratch):
+    """A body with a degree of its own goes through load steps and on from a state as others do, on two processes as on one."""
+    entries = [*FRICTION, *GRADED, "Body high/Start degree=3", "Contact joint/Friction coefficient=0.3", "Adaptivity/Method=hap2",
+               "Adaptivity/Maximum steps=2", "Solver/Primal tolerance=1e-11"]
+    moved = ["Boundary high.top/Displacement=0.02*sin(2*t); -0.01; 0.01", "Loading/Steps=2"]
+    known = None
+    for processes in (1, 2):
+        solve(scratch, [*entries, *moved], processes)
+        loads = rows(scratch / "out" / "loading.csv")
+        known = known or loads
+        for load, other in zip(loads, known, strict=True):
+            for column in ("stored_energy", "dissipated_energy", "work"):
+                expect(abs(float(load[column]) - float(other[column])) < 1e-9 * abs(float(known[-1]["stored_energy"])), column, load, other)
+    solve(scratch, [*entries, "Adaptivity/Maximum steps=1"])
+    went_on = subprocess.run([HPVI, "--resume", str(scratch / "out"), "--set", "Adaptivity/Maximum steps=2"], capture_output=True, text=True)
+    expect(went_on.returncode == 0, went_on.stderr)
+    resumed = rows(scratch / "out" / "convergence.csv")
+    solve(scratch, entries)
+    whole = rows(scratch / "out" / "convergence.csv")
+    for one, other in zip(resumed, whole, strict=True):
+        expect((one["p_min"], one["p_max"]) == ("2", "3") and abs(float(one["lagrangian"]) / float(other["lagrangian"]) - 1) < 1e-12, one, other)
 
 
 def check_friction(scratch):
@@ -438,13 +463,14 @@ def check_file_of_boxes(scratch):
 
 
 def check_many_coarse_cells(scratch):
-    """Coarse meshes of more than 12000 unknowns keep multigrid, which finds what ML does."""
+    """Coarse meshes of more than 12000 unknowns keep multigrid, which finds what ML does, also of two degrees."""
     cells = ["Body low/Subdivisions=8, 5, 8", "Body high/Subdivisions=6, 4, 6", "Contact joint/Friction coefficient=0.3", "Solver/Primal tolerance=1e-9"]
-    known = float(solve(scratch, [*FRICTION, *cells, "Solver/Linear=amg"])[2]["lagrangian"])
-    for processes in (1, 2):
-        row, linear = (lambda result: (result[2], result[1]["linear"]))(solve(scratch, [*FRICTION, *cells], processes))
-        expect(linear == "multigrid" and int(row["newton_cg"]) < 6 * int(row["newton_steps"]), "coarse", processes, linear, row)
-        expect(abs(float(row["lagrangian"]) / known - 1) < 1e-8, "coarse", processes, row["lagrangian"], known)
+    for own, most in ([], 6), (["Body low/Subdivisions=8, 6, 8", "Body high/Subdivisions=4, 3, 4", "Body high/Start degree=3"], 10):
+        known = float(solve(scratch, [*FRICTION, *cells, *own, "Solver/Linear=amg"])[2]["lagrangian"])
+        for processes in (1, 2):
+            row, linear = (lambda result: (result[2], result[1]["linear"]))(solve(scratch, [*FRICTION, *cells, *own], processes))
+            expect(linear == "multigrid" and int(row["newton_cg"]) < most * int(row["newton_steps"]), "coarse", own, processes, linear, row)
+            expect(abs(float(row["lagrangian"]) / known - 1) < 1e-8, "coarse", own, processes, row["lagrangian"], known)
 
 
 def check_slanted(scratch):
@@ -466,6 +492,7 @@ with tempfile.TemporaryDirectory() as scratch:
     scratch = pathlib.Path(scratch)
     if PART == "held":
         check_pressure(scratch)
+        check_degrees(scratch)
         check_friction(scratch)
         check_stiffness(scratch)
         check_shipped(scratch)

@@ -403,7 +403,7 @@ std::vector<ContactVector<3>> multipliers_of(const StepReport<3> &step)
   for (const ContactState<3> &state : step.contact)
     for (const ContactPoint<3> &point : state.points)
       for (const ContactDofFace<3> &face : space.faces)
-        for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+        for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
           if (space.contact[face.friction + k].x.distance(point.x) < 1e-10)
           {
             for (unsigned int s = 0; s < 2; ++s)
@@ -444,7 +444,7 @@ Tensor<1, 3> coupling_at(const Stages &stages, const Point<3> &x)
 /** theta of the same chi in the space of @p degree on @p mesh. */
 double coupling_on(const PrimalSpace<3> &space, const unsigned int degree, const Stages &stages)
 {
-  const BoxTables<3> tables(degree);
+  const DegreeTables<3> tables(degree);
   const PrimalSpace<3> finer(
       space.scene,
       dynamic_cast<const PrimalSpace<3>::Mesh &>(space.dof_handler.get_triangulation()), tables);
@@ -452,7 +452,7 @@ double coupling_on(const PrimalSpace<3> &space, const unsigned int degree, const
   NewtonMatrix<3> matrix(finer, system);
   std::vector<ContactVector<3>> mu_chi(finer.contact.size());
   for (const ContactDofFace<3> &face : finer.faces)
-    for (unsigned int k = 0; k < tables.n_contact_dofs(); ++k)
+    for (unsigned int k = 0; k < tables.only().n_contact_dofs(); ++k)
       if (finer.contact[face.friction + k].has_partner())
       {
         const Tensor<1, 3> chi = coupling_at(stages, finer.contact[face.friction + k].x);
@@ -484,7 +484,7 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
           DistributedVector u = solution;
           std::vector<ContactVector<3>> lambda(space.contact.size());
           for (const ContactDofFace<3> &face : space.faces)
-            for (unsigned int k = 0; k < space.tables.n_contact_dofs(); ++k)
+            for (unsigned int k = 0; k < space.tables.only().n_contact_dofs(); ++k)
             {
               const double angle = 3 * any(random);
               lambda[face.friction + k] = ContactVector<3>({std::cos(angle), std::sin(angle)});
@@ -556,7 +556,7 @@ TEST(CoulombBound, HasStagesThatTheTheoremAsksFor)
               const Point<3> unit(gauss[q % 12], 0, gauss[q / 12]);
               Tensor<1, 3> U;
               for (unsigned int i = 0; i < field.size(); ++i)
-                U += space.tables.fe.shape_value(space.tables.numbers[i][1], unit) *
+                U += space.tables.only().fe.shape_value(space.tables.only().numbers[i][1], unit) *
                      (field[i] - of_w[i]);
               const BoundaryCondition<3> &condition = space.condition(face.cell, face.face);
               const double u_0 = condition.gap->value(map.point(unit)),

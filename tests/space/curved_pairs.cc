@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Bodies that touch along faces of second order, by meshes that do not match.
+// Bodies that touch along faces of second order, or along several planes, by meshes that do not match.
 #include "curved_bodies.h"
 
+#include <hpvi/base/input_error.h>
 #include <hpvi/driver/load_history.h>
 
 #include <algorithm>
+#include <set>
 
 namespace
 {
@@ -79,16 +81,19 @@ const KnownField<3> shrinking{[](const Point<3> &x) { return -0.01 * x; }, [](co
 /** A uniform pressure passes from one body to the other: both have the same face, and its parts are polygons. */
 TEST(CurvedPairs, PassAUniformPressure)
 {
-  for (const auto &[law, degree, slave, linear] :
-       {std::tuple("unilateral", 2U, "one.bottom", LinearMethod::multigrid),
-        {"unilateral", 2U, "other.top", LinearMethod::direct},
-        {"tied", 2U, "other.top", LinearMethod::multigrid},
-        {"tied", 3U, "one.bottom", LinearMethod::amg},
-        {"bilateral", 4U, "other.top", LinearMethod::multigrid}})
+  for (const auto &[law, degree, own_degree, slave, linear] :
+       {std::tuple("unilateral", 2U, 0U, "one.bottom", LinearMethod::multigrid),
+        {"unilateral", 2U, 0U, "other.top", LinearMethod::direct},
+        {"tied", 2U, 0U, "other.top", LinearMethod::multigrid},
+        {"tied", 3U, 0U, "one.bottom", LinearMethod::amg},
+        {"bilateral", 4U, 0U, "other.top", LinearMethod::multigrid},
+        {"unilateral", 3U, 2U, "one.bottom", LinearMethod::multigrid},
+        {"unilateral", 2U, 4U, "other.top", LinearMethod::multigrid}})
   {
     Scene<3> scene = cushions({{degree > 2 ? 1U : 2U, degree > 2 ? 2U : 3U}},
                               {{"Contact joint/Law", law}, {"Contact joint/Slave", slave}});
     scene.adaptivity.start_degree = degree;
+    scene.adaptivity.degrees_of_bodies = {0, own_degree};
     scene.solver.linear = linear;
     scene.solver.primal_tolerance = 1e-12;
     grade(scene, turned({0, 0, 0}), 1);
@@ -316,6 +321,117 @@ TEST(CurvedPairs, RememberTheirSlip)
     ASSERT_EQ(dissipated.size(), 3U);
     EXPECT_NEAR(dissipated[2], dissipated[1], 1e-6 * dissipated[1]);
   }
+}
+
+/** Of half a turn eight facets, on radii from @p inner on: cells may be more than these. */
+Grid facets(const double inner, const double outer, const unsigned int n, const unsigned int layers)
+{
+  return {{{1, n, layers}},
+          [=](const Point<3> &x)
+          {
+            const double turn = 8 * x[1], r = inner + (outer - inner) * x[0];
+            const unsigned int k = std::min(turn, 7.);
+            const auto corner = [](const unsigned int j)
+            { return Point<3>(std::cos(pi * j / 8), std::sin(pi * j / 8), 0); };
+            const Tensor<1, 3> place =
+                r * ((k + 1 - turn) * corner(k) + (turn - k) * Tensor<1, 3>(corner(k + 1)));
+            return Point<3>(place[0], place[1], 0.5 * x[2]);
+          }};
+}
+
+/** Half of a pin `one` in half of a hole `other`, both of 16 facets a turn; one facet has two cells of the hole. */
+Scene<3> facetted_pin(const Overrides &entries)
+{
+  return two_bodies(facets(0.5, 1, 8, 1), facets(1, 2, 16, 2), {"right", "left"},
+                    Overrides{{"Boundary one.left/Displacement", "0.02; 0; 0"},
+                              {"Boundary other.right/Displacement", "0; 0; 0"},
+                              {"Material/Young's modulus", "20"},
+                              {"Material/Poisson's ratio", "0.3"},
+                              {"Adaptivity/Method", "hup2"},
+                              {"Adaptivity/Maximum steps", "1"}} +
+                        entries);
+}
+
+/** A pair along several planes passes a uniform pressure on all of them. */
+TEST(FacettedPairs, PassAUniformPressure)
+{
+  for (const auto &[slave, degree] :
+       {std::pair("one.right", 2U), {"other.left", 2U}, {"one.right", 3U}})
+  {
+    Scene<3> scene = facetted_pin({{"Contact joint/Slave", slave}});
+    scene.adaptivity.start_degree = degree;
+    scene.solver.primal_tolerance = 1e-13;
+    prescribe_around(scene, shrinking);
+    const double pressure = 0.01 * 20 / (1 - 2 * 0.3);
+    steps_of<3>(scene,
+                [&](const StepReport<3> &step)
+                {
+                  std::set<long> reached;
+                  for (const ContactPoint<3> &point : step.contact.at(0).points)
+                  {
+                    EXPECT_NEAR(point.normal_traction, -pressure, 1e-11 * pressure);
+                    reached.insert(std::lround(8 * std::atan2(point.x[1], point.x[0]) / pi - 0.5));
+                  }
+                  EXPECT_EQ(reached.size(), 8);
+                  EXPECT_LT(largest_error(step, shrinking), 1e-11);
+                });
+  }
+}
+
+/** A pin pushed to one side of a hole: both balance, and either may be the slave. */
+TEST(FacettedPairs, PushAPinIntoAHole)
+{
+  std::vector<std::array<double, 2>> forces; // by mesh, on the pin
+  for (const unsigned int slave : {0U, 1U})
+  {
+    Overrides entries{{"Contact joint/Gap", "0.001"},
+                      {"Contact joint/Friction coefficient", "0.2"},
+                      {"Contact joint/Slave", slave == 0 ? "one.right" : "other.left"},
+                      {"Adaptivity/Maximum steps", "2"}};
+    for (const char *const body : {"one", "other"})
+      for (const char *const side : {"bottom", "top", "front", "back"})
+        entries.emplace_back("Boundary " + std::string(body) + "." + side + "/Symmetry", "true");
+    unsigned int k = 0;
+    steps_of<3>(facetted_pin(entries),
+                [&](const StepReport<3> &step)
+                {
+                  forces.resize(2);
+                  forces[k++][slave] = force_on(step, "one.right", 0);
+                  expect_balance(step, "one.right", "other.left", 0.1);
+                  for (const ContactPoint<3> &point : step.contact.at(0).points)
+                    EXPECT_LE(point.normal_traction, 1e-12);
+                });
+  }
+  const auto apart = [](const std::array<double, 2> &both)
+  { return std::abs(both[1] / both[0] - 1); };
+  EXPECT_LT(forces[0][0], 0);
+  EXPECT_LT(apart(forces[0]), 0.02);
+  EXPECT_LT(apart(forces[1]), 0.6 * apart(forces[0]));
+}
+
+/** Where two planes of one side meet the other one has an edge, too, or the pair is refused. */
+TEST(FacettedPairs, HaveTheSameEdges)
+{
+  const auto block = [](const unsigned int n, const double low, const double high)
+  {
+    return Grid{{{n, 1, 1}},
+                [=](const Point<3> &x)
+                {
+                  const double ridge = 1 - 0.1 * std::abs(2 * x[0] - 1);
+                  return Point<3>(x[0], low * (1 - x[1]) + high * x[1] + (n == 1 ? 0 : ridge),
+                                  x[2]);
+                }};
+  };
+  const Overrides held{{"Boundary one.top/Displacement", "0; 0; 0"},
+                       {"Boundary other.bottom/Displacement", "0; 0; 0"}};
+  EXPECT_NO_THROW(two_bodies(block(2, 0, 1), block(2, -1, 0), {"bottom", "top"}, held));
+  const std::string line = ::failure_of<InputError>(
+      [&] {
+        two_bodies(block(1, 1, 2), block(2, -1, 0), {"bottom", "top"}, held);
+      });
+  EXPECT_NE(line.find("one has a step or an edge opposite to a face of the other"),
+            std::string::npos)
+      << line;
 }
 
 /** A quarter of a block above the plane y = 0 whose lower side is a sphere of radius 10; @p is_below: what lies below, mirrored. */

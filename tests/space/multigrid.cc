@@ -213,7 +213,7 @@ TEST(Multigrid, LeavesHighDegreesToTheOther)
   const Scene<3> scene = slab();
   PrimalSpace<3>::Mesh mesh(MPI_COMM_SELF);
   GridGenerator::subdivided_hyper_rectangle(mesh, {1, 1, 1}, Point<3>(), Point<3>(4, 4, 2), true);
-  const BoxTables<3> low(4), high(5);
+  const DegreeTables<3> low(4), high(5);
   EXPECT_EQ(linear_method(PrimalSpace<3>(scene, mesh, low)), LinearMethod::multigrid);
   EXPECT_EQ(linear_method(PrimalSpace<3>(scene, mesh, high)), LinearMethod::amg);
 }

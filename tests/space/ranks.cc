@@ -151,8 +151,10 @@ TEST(Ranks, CoarseMeshOfManyCells)
 /** Rings whose meshes do not match, on refined meshes. */
 TEST(Ranks, CurvedBodies)
 {
-  for (const Overrides &law : {Overrides{{"Contact joint/Friction coefficient", "0.2"}},
-                               Overrides{{"Contact joint/Slave", "one.right"}}})
+  for (const Overrides &law :
+       {Overrides{{"Contact joint/Friction coefficient", "0.2"}},
+        Overrides{{"Contact joint/Slave", "one.right"}},
+        Overrides{{"Body other/Start degree", "3"}, {"Contact joint/Friction bound", "0.5"}}})
     expect_same_run(two_rings(2, 3,
                               law + Overrides{{"Contact joint/Gap", "-0.03"},
                                               {"Boundary other.back/Displacement", "0; 0; 0.01*x"},

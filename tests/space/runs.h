@@ -133,7 +133,7 @@ template <int dim>
 double energy_error(const StepReport<dim> &step, const KnownField<dim> &exact)
 {
   double sum = 0;
-  const BoxTable<dim> &table = step.primal->space.tables.cell;
+  const BoxTable<dim> &table = step.primal->space.tables.only().cell;
   for (const auto &cell : step.primal->space.dof_handler.active_cell_iterators())
   {
     const auto size = PrimalSpace<dim>::extent(cell);

@@ -243,7 +243,7 @@ ContactVector<3> bilinear(const ContactDof<3> &contact_dof)
 TEST(Unilateral, TransferKeepsPolynomials)
 {
   const Scene<3> scene = lifted_slab({{"Adaptivity/Method", "hap3"}});
-  const BoxTables<3> tables(3);
+  const DegreeTables<3> tables(3);
   PrimalSpace<3>::Mesh mesh(MPI_COMM_SELF);
   make_mesh(scene, static_cast<Triangulation<3> &>(mesh));
   const PrimalSpace<3> coarse(scene, mesh, tables);

@@ -152,7 +152,7 @@ public:
   virtual Warnings warnings(const std::vector<ContactState<dim>> &contact,
                             const Equilibrium<dim> &balance) const = 0;
 
-  /** Cells of a Refinement, and of degrees(), are those of all processes, by global_cell_indices(). */
+  /** Cells of a Refinement, and of degrees(), are those of all processes, by global_cell_indices(). Collective, as size(). */
   virtual void refine(const Refinement &refinement) = 0;
   virtual Degrees degrees() const = 0;
 

@@ -74,7 +74,7 @@ private:
   void take();
 
   const std::shared_ptr<typename PrimalSpace<dim>::Mesh> mesh;
-  const BoxTables<dim> tables;
+  const DegreeTables<dim> tables;
   const ShapeTables<dim> shape_tables; ///< for its field
   std::unique_ptr<PrimalSpace<dim>> space;
   std::unique_ptr<PrimalSystem<dim>> system;     ///< of it; null before solve()

@@ -92,7 +92,8 @@ struct Adaptivity
   Method method = Method::hpa3;
   SmoothnessReading reading = SmoothnessReading::joint;
   Indicator indicator = Indicator::bound; ///< what marks; the residual where there is no bound
-  unsigned int start_degree = 3;    ///< p >= -offset of the multiplier at the contact boundary
+  unsigned int start_degree = 3; ///< p >= -offset of the multiplier at the contact boundary
+  std::vector<unsigned int> degrees_of_bodies; ///< in its place in space, by body; 0: itself
   unsigned int maximum_degree = 12; ///< cells of this degree are bisected where p would rise
   double hap_threshold = 0.5;       ///< hap: bisect where eta_K > threshold * mean(eta_K)
   double hpa1_bisected = 0.1;       ///< hpa1: fraction of elements bisected
@@ -262,6 +263,9 @@ struct Scene
                                                      unsigned int cell) const;
 
   bool has_material_places() const; ///< is it said where materials are?
+
+  /** The degree of the body of this number on the coarse mesh: its own, or Adaptivity/Start degree. */
+  unsigned int start_degree_of(unsigned int body) const;
 
   /** Makes boundaries of the names and numbers that those of the geometry have, all free. */
   void name_boundaries();

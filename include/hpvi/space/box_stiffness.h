@@ -43,7 +43,7 @@ private:
   const Matrix &of_body(const Cell &cell) const;
   const Matrix &of_box(const Cell &cell, const std::vector<bool> &moment_components) const;
   unsigned int size_class(const Cell &cell) const;
-  const Matrix *known(const CellMap<dim> &map, dealii::types::material_id material) const;
+  const Matrix *known(const Cell &cell, const CellMap<dim> &map) const;
   HookesLaw<dim> law(const Cell &cell) const;
 
   const PrimalSpace<dim> &space;
@@ -55,6 +55,7 @@ private:
   {
     dealii::Tensor<2, dim> edges;
     dealii::types::material_id material;
+    unsigned int degree;
     Matrix K;
   };
   mutable std::vector<std::unique_ptr<Parallelepiped>> parallelepipeds;

@@ -52,8 +52,8 @@ inline bool has_cell_operator(const unsigned int degree)
 }
 
 /**
- * Of FE_Q of this degree; @p stiffness by material id, IsotropicStiffness or GeneralStiffness, which take two and 21
- * constants of a material to each point; @p mapping of cells. @p dof_handler must outlive it. Collective. Null where the degree is
+ * Of the elements of @p dof_handler, one or an hp::FECollection; @p stiffness by material id, IsotropicStiffness or GeneralStiffness, which take two and 21
+ * constants of a material to each point; @p mapping of cells. @p dof_handler must outlive it. Collective. Null where a degree is
  * none of has_cell_operator().
  */
 template <typename Number, class Stiffness>

@@ -50,6 +50,7 @@ private:
   };
   struct Turn ///< of a face whose three components begin there in #inner
   {
+    unsigned int n; ///< contact dofs of a component
     unsigned int first_inner;
     std::array<std::array<Number, 3>, 3> directions; ///< by component of v and axis
   };
@@ -72,9 +73,8 @@ private:
   template <bool inverse>
   void transform_transposed(Vector &r) const;
 
-  unsigned int n = 0;             ///< contact dofs of a component
   unsigned int largest = 0;       ///< Row::n
-  std::vector<Matrices> matrices; ///< the first of the unit face
+  std::vector<Matrices> matrices; ///< the first of unit faces, by degree
   std::vector<Row> rows;
   std::vector<Turn> turns;
   std::vector<unsigned int> inner, rim; ///< local elements

@@ -3,8 +3,7 @@
 #define hpvi_elastic_foundation_h
 
 #include <hpvi/plane/shape_tables.h>
-#include <hpvi/scene/scene.h>
-#include <hpvi/space/box_tables.h>
+#include <hpvi/space/degree_tables.h>
 
 #include <deal.II/grid/tria.h>
 
@@ -34,7 +33,7 @@ public:
   using Cell = typename dealii::Triangulation<dim>::cell_iterator;
 
   /** Both live as long as this. */
-  ElasticFoundation(const Scene<dim> &scene, const BoxTables<dim> &tables);
+  ElasticFoundation(const Scene<dim> &scene, const DegreeTables<dim> &tables);
 
   bool holds(const Cell &cell) const; ///< has it a face on springs?
 
@@ -48,9 +47,10 @@ private:
   const Spring<dim> &spring(const Cell &cell, unsigned int face) const;
 
   const Scene<dim> &scene;
-  const BoxTables<dim> &tables;
+  const DegreeTables<dim> &tables;
   const bool has_springs;
-  std::vector<ShapeTable<dim>> constant, varying; ///< by face, where any has springs
+  /** By degree and face, where any has springs. */
+  std::vector<std::vector<ShapeTable<dim>>> constant, varying;
 };
 } // namespace hpvi
 

@@ -37,6 +37,7 @@ private:
   struct Piece ///< what a fine cell takes from a coarse one
   {
     unsigned int coarse;     ///< first of its nodes in #nodes
+    unsigned int tables;     ///< of both, see DegreeTables::number_of()
     unsigned int child;      ///< or n_children: the same cell
     unsigned int first, end; ///< of its rows
   };
@@ -48,7 +49,7 @@ private:
   };
   struct Assembly;
 
-  void build_matrices();
+  void build_matrices(const BoxTables<3> &tables);
   void add_piece(Assembly &assembly, const typename PrimalSpace<3>::Cell &coarse,
                  unsigned int child, const std::vector<dealii::types::global_dof_index> &bases);
   void add_links(const typename PrimalSpace<3>::Cell &coarse, unsigned int child,
@@ -57,9 +58,9 @@ private:
   void share_rows();
 
   const MultigridLevel<float> &coarse, &fine;
-  unsigned int n_nodes; ///< of a cell
   /** By child and node of the child: nodes of the parent and weights. */
-  std::vector<std::vector<std::vector<std::pair<unsigned int, float>>>> interpolation;
+  using Interpolation = std::vector<std::vector<std::vector<std::pair<unsigned int, float>>>>;
+  std::vector<Interpolation> interpolations; ///< by degree
   std::vector<Piece> pieces;
   std::vector<Row> rows;
   std::vector<Link> links;

@@ -7,12 +7,12 @@
 namespace hpvi
 {
 /**
- * `L(u)` [stress length^dim] of the loads of @p scene, on the body of @p space, by @p n_points Gauss points a
- * direction on each cell and face; the path itself takes p + 1. Collective.
+ * `L(u)` [stress length^dim] of the loads of @p scene, on the body of @p space, by @p finer times the p + 1 Gauss
+ * points a direction on each cell and face that the path itself takes. Collective.
  */
 template <int dim>
 double load_work(const Scene<dim> &scene, const PrimalSpace<dim> &space, const DistributedVector &u,
-                 unsigned int n_points);
+                 unsigned int finer);
 } // namespace hpvi
 
 #endif

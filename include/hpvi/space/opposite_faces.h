@@ -5,8 +5,8 @@
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/common_part.h>
 #include <hpvi/scene/curved_face.h>
-#include <hpvi/space/box_tables.h>
 #include <hpvi/space/contact_dof.h>
+#include <hpvi/space/degree_tables.h>
 #include <hpvi/space/far_values.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -45,6 +45,7 @@ struct MasterFace
   dealii::types::boundary_id boundary = 0;
   dealii::types::material_id material = 0;
   unsigned int process = 0, cell = 0; ///< its owner, and the cell by active_cell_index() there
+  unsigned int tables = 0;            ///< of its cell, by DegreeTables::number_of()
   std::vector<OppositeNode> nodes;    ///< those on the rim first
   std::vector<dealii::Point<3>>
       curve; ///< of a pair that is curved, as those of CurvedFace; none: it is plane
@@ -54,7 +55,7 @@ struct MasterFace
   template <class Archive>
   void serialize(Archive &archive, unsigned int)
   {
-    archive &corners &face &boundary &material &process &cell &nodes &curve;
+    archive &corners &face &boundary &material &process &cell &tables &nodes &curve;
   }
 };
 
@@ -108,7 +109,7 @@ public:
    * NumericalFailure where a face of a slave lies opposite to no face of its master along a part. Collective.
    */
   OppositeFaces(const Scene<3> &scene, const dealii::DoFHandler<3> &dof_handler,
-                const BoxTables<3> &tables, const dealii::AffineConstraints<double> &constraints,
+                const DegreeTables<3> &tables, const dealii::AffineConstraints<double> &constraints,
                 const std::vector<ContactDofFace<3>> &slaves,
                 const std::vector<bool> &master_boundaries);
 
@@ -166,7 +167,7 @@ private:
   std::vector<PartPoint> points_on_curve(const Part &part, const ContactDofFace<3> &slave,
                                          unsigned int n) const;
 
-  const BoxTables<3> &tables;
+  const DegreeTables<3> &tables;
   void number_nodes(const dealii::IndexSet &owned, MPI_Comm communicator);
 
   std::vector<Opposite> faces;

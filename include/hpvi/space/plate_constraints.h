@@ -4,7 +4,7 @@
 
 #include <hpvi/base/processes.h>
 #include <hpvi/plane/plates.h>
-#include <hpvi/space/box_tables.h>
+#include <hpvi/space/degree_tables.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -34,7 +34,7 @@ struct PlateOnMesh
 template <int dim>
 std::vector<SupportedNode<dim>> plate_nodes(const Scene<dim> &scene,
                                             const dealii::DoFHandler<dim> &dof_handler,
-                                            const BoxTables<dim> &tables);
+                                            const DegreeTables<dim> &tables);
 
 /**
  * Adds the constraints of all plates to @p constraints, not closed, and masters and gauges to the unknowns @p relevant.
@@ -43,7 +43,7 @@ std::vector<SupportedNode<dim>> plate_nodes(const Scene<dim> &scene,
 template <int dim>
 std::vector<PlateOnMesh<dim>>
 constrain_plates(const Scene<dim> &scene, const dealii::DoFHandler<dim> &dof_handler,
-                 const BoxTables<dim> &tables, dealii::IndexSet &relevant,
+                 const DegreeTables<dim> &tables, dealii::IndexSet &relevant,
                  dealii::AffineConstraints<double> &constraints);
 
 /** `F . U + M . phi` of all @p plates, with the forces of @p scene, on nodal values @p u. */

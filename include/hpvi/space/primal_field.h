@@ -54,14 +54,19 @@ private:
                                                const dealii::Point<dim> &x,
                                                const std::vector<double> &values) const;
   unsigned int number_of(const FieldFace<dim> &face) const;
+  const BoxTables<dim> &tables_of(const FieldFace<dim> &face) const
+  {
+    return space.tables.of(face.cell);
+  }
   ContactTraction<dim> multiplier(const FieldFace<dim> &face, unsigned int k) const;
 
   const PrimalSpace<dim> &space;
   const std::shared_ptr<const DistributedVector> u;
   const std::shared_ptr<const std::vector<ContactVector<dim>>> lambda;
   std::vector<const ContactDofFace<dim> *>
-      contact_dof_faces;                      ///< by face; null: it has no contact dofs
-  std::vector<ShapeTable<dim>> moment_tables; ///< by number of a face of the unit cell
+      contact_dof_faces; ///< by face; null: it has no contact dofs
+  std::vector<std::vector<ShapeTable<dim>>>
+      moment_tables; ///< by degree and number of a face of the unit cell
   std::vector<double> far, past_far,
       far_change; ///< opposite to faces: now, in the load step before, less that
   std::vector<ExertedTraction<dim>> on_masters;

@@ -4,8 +4,8 @@
 
 #include <hpvi/base/processes.h>
 #include <hpvi/scene/scene.h>
-#include <hpvi/space/box_tables.h>
 #include <hpvi/space/contact_dof.h>
+#include <hpvi/space/degree_tables.h>
 #include <hpvi/space/opposite_faces.h>
 #include <hpvi/space/plate_constraints.h>
 
@@ -24,7 +24,7 @@
 namespace hpvi
 {
 /**
- * The displacements of one degree on a distributed mesh of hexahedra, in the plane of boxes, in the basis in which contact is
+ * The displacements of one degree, or of one a body, on a distributed mesh of hexahedra, in the plane of boxes, in the basis in which contact is
  * diagonal: contact dofs stand for the inner nodal values of tangential components on faces with friction, and of
  * the normal one where contact has a pressure (see BoxTables). Contact dofs belong to one cell, never hang and
  * are never prescribed. Where two bodies touch in space one of them, the slave, has contact dofs: moments of the jump, see
@@ -41,7 +41,7 @@ public:
   using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
 
   /** Collective. Throws InputError where an expression of the scene is not what it has to be. */
-  PrimalSpace(const Scene<dim> &scene, const Mesh &mesh, const BoxTables<dim> &tables);
+  PrimalSpace(const Scene<dim> &scene, const Mesh &mesh, const DegreeTables<dim> &tables);
 
   MPI_Comm communicator() const;
   DistributedVector owned_vector() const;   ///< zero, for v
@@ -76,7 +76,7 @@ public:
   /** The change to contact dofs on @p face. */
   const FaceContactDofs &contact_dofs_on(const ContactDofFace<dim> &face) const
   {
-    return face.own ? *face.own : tables.contact_dofs;
+    return face.own ? *face.own : tables.of(face.cell).contact_dofs;
   }
 
   /**
@@ -131,7 +131,7 @@ public:
   void count_slip_from(const DistributedVector &u);
 
   const Scene<dim> &scene;
-  const BoxTables<dim> &tables;
+  const DegreeTables<dim> &tables;
   const bool rests_on_contact; ///< do supports leave motions free? In space alone
   dealii::DoFHandler<dim> dof_handler;
   dealii::IndexSet owned, relevant; ///< relevant: of neighbours and plates as well
@@ -162,12 +162,10 @@ private:
              const std::function<Value(const dealii::Point<dim> &)> &f) const;
   double gap_at(const ContactDofFace<dim> &face, const dealii::Point<dim> &x) const;
   ContactDofFace<dim> face_of(const Cell &cell, unsigned int number) const;
-  dealii::Vector<double> components_at(const std::vector<dealii::types::global_dof_index> &dofs,
+  dealii::Vector<double> components_at(const BoxTables<dim> &tables,
+                                       const std::vector<dealii::types::global_dof_index> &dofs,
                                        const std::vector<unsigned int> &shapes,
                                        const DistributedVector &u) const;
-  dealii::types::global_dof_index dof(const std::vector<dealii::types::global_dof_index> &dofs,
-                                      unsigned int shape, unsigned int component) const;
-
   std::map<std::pair<unsigned int, unsigned int>, unsigned int> face_numbers; ///< by cell, face
   std::vector<bool> masters;         ///< by boundary; none: no bodies touch each other
   std::vector<bool> opposite_to_any; ///< likewise, see is_opposite()

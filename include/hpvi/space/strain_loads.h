@@ -14,8 +14,8 @@ class StrainLoads
 public:
   using Cell = typename PrimalSpace<dim>::Cell;
 
-  /** By Gauss rules with @p n_points a direction, which cut no cell. Both live as long as this. */
-  StrainLoads(const Scene<dim> &scene, const PrimalSpace<dim> &space, unsigned int n_points);
+  /** By Gauss rules with @p finer times the p + 1 points a direction of the path, which cut no cell. Both live as long as this. */
+  StrainLoads(const Scene<dim> &scene, const PrimalSpace<dim> &space, unsigned int finer);
 
   /** `int C eps_0 : eps(v_i)` over @p cell [stress length^(dim-1)]; zero where its material has none. */
   CellField<dim> load(const Cell &cell) const;
@@ -31,12 +31,13 @@ public:
 
 private:
   bool is_strained(const Cell &cell) const;
+  const ShapeTable<dim> &table_on(const Cell &cell) const;
   template <class Take>
   void for_each_point(const Cell &cell, const Take &take) const;
 
   const Scene<dim> &scene;
   const PrimalSpace<dim> &space;
-  const ShapeTable<dim> table;
+  std::vector<ShapeTable<dim>> tables; ///< by degree
 };
 } // namespace hpvi
 

@@ -4,7 +4,7 @@
 
 #include <hpvi/plane/supports.h>
 #include <hpvi/scene/scene.h>
-#include <hpvi/space/box_tables.h>
+#include <hpvi/space/degree_tables.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -22,7 +22,7 @@ namespace hpvi
 template <int dim>
 std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
                                                 const dealii::DoFHandler<dim> &dof_handler,
-                                                const BoxTables<dim> &tables);
+                                                const DegreeTables<dim> &tables);
 
 /**
  * What holds nodes: hanging ones those of their neighbours, then supports in any direction; plates see constrain_plates().
@@ -30,7 +30,7 @@ std::vector<SupportedNode<dim>> supported_nodes(const Scene<dim> &scene,
  */
 template <int dim>
 void constrain_supports(const Scene<dim> &scene, const dealii::DoFHandler<dim> &dof_handler,
-                        const BoxTables<dim> &tables, const dealii::IndexSet &relevant,
+                        const DegreeTables<dim> &tables, const dealii::IndexSet &relevant,
                         dealii::AffineConstraints<double> &constraints);
 } // namespace hpvi
 

@@ -48,7 +48,7 @@ private:
   struct Node ///< which takes its value from this cell
   {
     unsigned int local;   ///< element of its first component
-    unsigned short shape; ///< of the cell
+    unsigned short shape; ///< in #weights
   };
   struct ContactFace
   {
@@ -58,7 +58,8 @@ private:
   };
 
   void number();
-  void copy_constraint(const std::vector<dealii::types::global_dof_index> &of_mesh,
+  void copy_constraint(const PrimalSpace<3>::Cell &cell,
+                       const std::vector<dealii::types::global_dof_index> &of_mesh,
                        unsigned int corner, unsigned int component,
                        const std::vector<dealii::types::global_dof_index> &own);
   void assemble();
@@ -71,14 +72,17 @@ private:
   Block stiffness(std::size_t k) const;
 
   const MultigridLevel<float> &level;
-  const BoxTables<3> tables; ///< of degree one
+  const DegreeTables<3> linear; ///< of degree one
+  const BoxTables<3> &tables;   ///< those
   dealii::DoFHandler<3> dof_handler;
   dealii::AffineConstraints<double>
       constraints; ///< as of the mesh, with zeros for what is prescribed; plates have masters of their own
   dealii::IndexSet relevant; ///< with those masters
   std::vector<Cell> cells;
   std::vector<Node> nodes;
-  std::vector<std::array<double, 8>> weights; ///< of corners, by shape function of the mesh
+  std::vector<std::array<double, 8>>
+      weights; ///< of corners, by shape function of one degree of the mesh after the other
+  std::vector<unsigned int> first_weights; ///< by degree
   std::vector<ContactFace> faces;
   /** Corners that a node of a master takes its value from, first components with weights, by that of the node. */
   std::map<dealii::types::global_dof_index,

@@ -109,6 +109,16 @@ void check_multiplier_degree(const Scene<dim> &scene, const SceneUse use)
            std::to_string(scene.adaptivity.start_degree));
 }
 
+/** Of all bodies. */
+template <int dim>
+unsigned int lowest_degree(const Scene<dim> &scene)
+{
+  unsigned int result = scene.start_degree_of(0);
+  for (unsigned int body = 1; body < scene.geometry.bodies.size(); ++body)
+    result = std::min(result, scene.start_degree_of(body));
+  return result;
+}
+
 template <int dim>
 void reject_unknowns(const Scene<dim> &scene, const double unknowns, const std::string &entry,
                      const std::string &remedy)
@@ -119,7 +129,7 @@ void reject_unknowns(const Scene<dim> &scene, const double unknowns, const std::
     reject(scene, "Adaptivity", "Maximum unknowns",
            "is less than the bodies have in the first step, at least " +
                std::to_string(std::llround(unknowns)) + " free unknowns of degree " +
-               std::to_string(scene.adaptivity.start_degree) +
+               std::to_string(lowest_degree(scene)) +
                "; take coarser meshes, by their Subdivisions, or raise it",
            std::to_string(scene.adaptivity.maximum_unknowns));
   reject(scene, "Geometry", entry,
@@ -133,7 +143,7 @@ void reject_unknowns(const Scene<dim> &scene, const double unknowns, const std::
 template <int dim>
 void check_first_step_on_mesh(const Scene<dim> &scene)
 {
-  const double p = scene.adaptivity.start_degree;
+  const double p = lowest_degree(scene);
   if constexpr (dim == 3) // nodes inside of a cell are its own
     reject_unknowns(scene, 3 * std::pow(p - 1, 3) * scene.geometry.n_cells(), "File",
                     "take a coarser mesh or raise that limit");
@@ -180,6 +190,31 @@ void check_method(const Scene<dim> &scene, const SceneUse use)
   check_multiplier_degree(scene, use);
 }
 
+namespace
+{
+/** Of the body of this number. */
+template <int dim>
+std::optional<Objection> objection_to_degree(const Scene<dim> &scene, const unsigned int body,
+                                             const std::string &why)
+{
+  const unsigned int degree = scene.start_degree_of(body);
+  const std::vector<unsigned int> &own = scene.adaptivity.degrees_of_bodies;
+  const std::string section = body < own.size() && own[body] > 0
+                                  ? "Body " + scene.geometry.bodies[body].name
+                                  : "Adaptivity";
+  if (degree < 2 || degree > 8)
+    return Objection{section, "Start degree", "is not offered by " + why + "; give 2 to 8",
+                     std::to_string(degree)};
+  if (dim == 3 && scene.solver.linear == LinearMethod::multigrid && degree > 4)
+    return Objection{"Solver", "Linear",
+                     "is for degrees 2 to 4, and " +
+                         (section == "Adaptivity" ? "" : section + "/") + "Start degree is " +
+                         std::to_string(degree) + "; give automatic, amg or direct",
+                     "multigrid"};
+  return std::nullopt;
+}
+} // namespace
+
 template <int dim>
 std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
 {
@@ -190,15 +225,9 @@ std::optional<Objection> objection_to_primal_path(const Scene<dim> &scene)
                      "varies the degree from cell to cell or with the steps, which " + why +
                          " does not offer; take hup2, hup3, hup4, hap2, hap3 or hap4",
                      method_names[static_cast<unsigned int>(adaptivity.method)]};
-  if (adaptivity.start_degree < 2 || adaptivity.start_degree > 8)
-    return Objection{"Adaptivity", "Start degree", "is not offered by " + why + "; give 2 to 8",
-                     std::to_string(adaptivity.start_degree)};
-  if (dim == 3 && scene.solver.linear == LinearMethod::multigrid && adaptivity.start_degree > 4)
-    return Objection{"Solver", "Linear",
-                     "is for degrees 2 to 4, and Start degree is " +
-                         std::to_string(adaptivity.start_degree) +
-                         "; give automatic, amg or direct",
-                     "multigrid"};
+  for (unsigned int body = 0; body == 0 || body < scene.geometry.bodies.size(); ++body)
+    if (const auto objection = objection_to_degree(scene, body, why))
+      return objection;
   for (const Material &material : scene.materials)
     if (dim == 2 && material.orthotropy)
       return Objection{section_of_material(material.name), "Elasticity",
