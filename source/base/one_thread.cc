@@ -27,9 +27,10 @@ std::mutex mutex;
 unsigned int n_guards = 0; ///< of all threads
 int blas_threads = 0;      ///< before the first of them
 
+#ifdef __x86_64__
 /**
  * OpenBLAS 0.3.21 takes a processor that is younger than itself for the oldest that it knows: dense products take three times as long. It
- * chooses when it is loaded, by a variable of the environment if there is one, and chooses again here, before anybody has used it.
+ * chooses when it is loaded, by a variable of the environment if there is one, and chooses again here. No other thread may use it meanwhile.
  */
 struct KernelsOfThisProcessor
 {
@@ -50,6 +51,7 @@ struct KernelsOfThisProcessor
 };
 
 const KernelsOfThisProcessor when_loaded;
+#endif
 } // namespace
 
 OneThread::OneThread()

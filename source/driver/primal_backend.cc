@@ -51,32 +51,6 @@ std::shared_ptr<typename PrimalSpace<dim>::Mesh> spread_mesh(const Scene<dim> &s
   return mesh;
 }
 
-/**
- * Of a process: matrix, its pattern, the levels of algebraic multigrid; or without a matrix vectors, unknowns and constraints of
- * all levels, and degree one on the coarsest mesh with its algebraic multigrid. Measured to a quarter, without a matrix to a tenth.
- */
-template <int dim>
-double expected_bytes(const PrimalSpace<dim> &space)
-{
-  const auto &mesh = space.dof_handler.get_triangulation();
-  const double share = double(space.owned.n_elements()) / space.dof_handler.n_dofs();
-  if (linear_method(space) == LinearMethod::multigrid)
-    return 520. * space.owned.n_elements() + 7500. * share * mesh.n_global_coarse_cells();
-  double entries = 0;
-  for (const auto &cell : mesh.active_cell_iterators())
-    if (cell->is_locally_owned())
-      entries += std::pow(space.tables.of(cell).fe.dofs_per_cell, 2);
-  return 19 * entries;
-}
-
-template <int dim>
-std::string matrix_name(const PrimalSpace<dim> &space)
-{
-  return (linear_method(space) == LinearMethod::multigrid ? "the levels of multigrid for "
-                                                          : "the matrix and its multigrid for ") +
-         std::to_string(space.dof_handler.n_dofs()) + " unknowns";
-}
-
 /** What a machine that has the memory for the matrix of @p space should know before all of it is taken. Collective. */
 template <int dim>
 std::string memory_note(const PrimalSpace<dim> &space)
@@ -86,17 +60,6 @@ std::string memory_note(const PrimalSpace<dim> &space)
     return {};
   return matrix_name(space) + " take " + bytes_text(bytes) +
          " of memory; Adaptivity/Maximum unknowns ends a run before";
-}
-
-/** Throws NumericalFailure on all processes where those of one machine need more than it has. Collective. */
-template <int dim>
-void require_room(const PrimalSpace<dim> &space)
-{
-  MPI_Comm machine;
-  MPI_Comm_split_type(space.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-  const double bytes = Utilities::MPI::sum(expected_bytes(space), machine);
-  MPI_Comm_free(&machine);
-  collectively(space.communicator(), [&]() { require_memory(bytes, matrix_name(space)); });
 }
 
 /** What Newton's method leaves, as a part of the estimated error. */

@@ -29,12 +29,12 @@ namespace hpvi
 {
 namespace
 {
-/** A load history may have one in each load step. */
+/** A load history in the plane may have one in each load step. */
 template <int dim>
 bool has_bound_column(const Scene<dim> &scene, const bool is_primal)
 {
   return (!is_primal || dim == 3) && scene.error_bound &&
-         (scene.has_load_history() || no_error_bound(scene).empty());
+         ((dim == 2 && scene.has_load_history()) || no_error_bound(scene).empty());
 }
 
 /** The true error has a column only where there is something to compare with, time in a history. */
@@ -122,7 +122,7 @@ std::string missing_bound_in_words(const StepReport<dim> &step, const std::strin
              is_wanted = step.scene.error_bound && (!step.primal || dim == 3);
   if (step.bound || step.no_bound.empty() || !(is_wanted || is_in_its_place))
     return {};
-  const bool has_none = step.load.number == 0 && !no_error_bound(step.scene).empty();
+  const bool has_none = (dim == 3 || step.load.number == 0) && !no_error_bound(step.scene).empty();
   return "\nno bound of the error" + (has_none ? "" : " in step " + text(step.number)) + ": " +
          step.no_bound + (last_bound.empty() ? "" : "; " + last_bound) + "\n" +
          (is_in_its_place ? "Adaptivity/Tolerance was compared with the indicator in its place, "

@@ -202,10 +202,7 @@ private:
         for (unsigned int j = 0; j < n; ++j)
           u += across[r * n + j] * lines[q * n + j];
         if (face.condition->pair && !face.map.is_curved()) // no polynomial where its cells end
-        {
-          const FaceFrame<3> frame = face.frame(reference);
-          u -= frame.tangential(field.opposite(face, reference)) + field.past_slip(face, frame.x);
-        }
+          u -= face.frame(reference).tangential(field.change_opposite(face, reference));
         double ds = 0;
         if (face.map.is_curved())
         {

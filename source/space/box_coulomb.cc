@@ -186,8 +186,9 @@ double BoxBound::coupling_of(const unsigned int degree, const std::vector<bool> 
   const PrimalSpace<3> other(
       space.scene,
       dynamic_cast<const PrimalSpace<3>::Mesh &>(space.dof_handler.get_triangulation()), tables);
+  require_room(other);
   PrimalSystem<3> system(other);
-  NewtonMatrix<3> of_degree(other, system);
+  NewtonMatrix<3> of_degree(other, system, matrix.method);
   return found(other, of_degree);
 }
 

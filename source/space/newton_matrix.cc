@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/memory.h>
 #include <hpvi/base/numerical_failure.h>
+#include <hpvi/base/processes.h>
 #include <hpvi/space/algebraic_multigrid.h>
 #include <hpvi/space/newton_matrix.h>
 #include <hpvi/space/rigid_motions.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
@@ -29,6 +32,38 @@ LinearMethod linear_method(const PrimalSpace<dim> &space)
       return Multigrid::is_for(space) ? LinearMethod::multigrid : LinearMethod::amg;
   else
     return LinearMethod::direct;
+}
+
+template <int dim>
+double expected_bytes(const PrimalSpace<dim> &space)
+{
+  const auto &mesh = space.dof_handler.get_triangulation();
+  const double share = double(space.owned.n_elements()) / space.dof_handler.n_dofs();
+  if (linear_method(space) == LinearMethod::multigrid)
+    return 520. * space.owned.n_elements() + 7500. * share * mesh.n_global_coarse_cells();
+  double entries = 0;
+  for (const auto &cell : mesh.active_cell_iterators())
+    if (cell->is_locally_owned())
+      entries += std::pow(space.tables.of(cell).fe.dofs_per_cell, 2);
+  return 19 * entries;
+}
+
+template <int dim>
+std::string matrix_name(const PrimalSpace<dim> &space)
+{
+  return (linear_method(space) == LinearMethod::multigrid ? "the levels of multigrid for "
+                                                          : "the matrix and its multigrid for ") +
+         std::to_string(space.dof_handler.n_dofs()) + " unknowns";
+}
+
+template <int dim>
+void require_room(const PrimalSpace<dim> &space)
+{
+  MPI_Comm machine;
+  MPI_Comm_split_type(space.communicator(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const double bytes = Utilities::MPI::sum(expected_bytes(space), machine);
+  MPI_Comm_free(&machine);
+  collectively(space.communicator(), [&]() { require_memory(bytes, matrix_name(space)); });
 }
 
 template <int dim>
@@ -374,6 +409,12 @@ void NewtonMatrix<dim>::solve(DistributedVector &v, const DistributedVector &b,
 
 template LinearMethod linear_method(const PrimalSpace<2> &);
 template LinearMethod linear_method(const PrimalSpace<3> &);
+template double expected_bytes(const PrimalSpace<2> &);
+template double expected_bytes(const PrimalSpace<3> &);
+template std::string matrix_name(const PrimalSpace<2> &);
+template std::string matrix_name(const PrimalSpace<3> &);
+template void require_room(const PrimalSpace<2> &);
+template void require_room(const PrimalSpace<3> &);
 template class NewtonMatrix<2>;
 template class NewtonMatrix<3>;
 } // namespace hpvi

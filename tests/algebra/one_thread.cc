@@ -52,6 +52,7 @@ protected:
   }
 };
 
+#ifdef __x86_64__
 /** A processor that OpenBLAS does not know is no Prescott. */
 TEST(KernelsOfOpenBlas, AreThoseOfThisProcessor)
 {
@@ -59,6 +60,7 @@ TEST(KernelsOfOpenBlas, AreThoseOfThisProcessor)
     GTEST_SKIP() << "they are chosen, or there are no better ones";
   EXPECT_NE(openblas_get_corename(), std::string("Prescott"));
 }
+#endif
 
 TEST_F(OneThreadTest, LastsAsLongAsTheGuard)
 {

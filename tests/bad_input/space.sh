@@ -98,6 +98,7 @@ blocks "Boundary low.top/Traction" "Contact joint has all of this side" -- "Boun
 blocks "Body high/Start degree = 9" "is not offered by space" "give 2 to 8" -- "Body high/Start degree=9"
 blocks "Body low/Start degree = 1" "is not offered by space" -- "Body high/Start degree=4" "Body low/Start degree=1"
 blocks "Adaptivity/Start degree = 9" "is not offered by space" -- "Body high/Start degree=4" "Adaptivity/Start degree=9"
+blocks "Body high/Start degree = 4" "exceeds Maximum degree = 3" -- "Body high/Start degree=4" "Adaptivity/Maximum degree=3" "Adaptivity/Start degree=2"
 blocks "Body low/Start degree = x" "an integer from 0 to 20" -- "Body low/Start degree=x"
 blocks "Solver/Linear = multigrid" "is for degrees 2 to 4" "Body low/Start degree is 5" -- "Body low/Start degree=5" "Solver/Linear=multigrid"
 blocks "Adaptivity/Maximum unknowns = 1" "at least 48 free unknowns of degree 3" -- "Body high/Start degree=4" "Adaptivity/Start degree=3" "Adaptivity/Maximum unknowns=1"

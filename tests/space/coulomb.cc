@@ -631,7 +631,7 @@ TEST(CoulombBound, HasTheCouplingOfFarFinerSpaces)
         Row{"pressed-on-a-flat-floor", flat},
         Row{"moved-on-a-flat-floor",
             with(flat, {given::coulomb("0.3"), {"Boundary top/Displacement", "0.05; -0.02; 0"}})},
-        Row{"degree-4", flat, "4"}})
+        Row{"degree-3", flat, "3"}, Row{"degree-4", flat, "4"}})
     on_block(with(row.entries, {given::steps("hup3", "3")}),
              [&](const PrimalSpace<3> &fine, const DistributedVector &)
              {

@@ -409,6 +409,33 @@ TEST(FacettedPairs, PushAPinIntoAHole)
   EXPECT_LT(apart(forces[1]), 0.6 * apart(forces[0]));
 }
 
+/** Friction's work in J counts the slip since the load step before, in plane pairs as well. */
+TEST(FlatPairs, CountSlipInTheEnergy)
+{
+  const auto block = [](const unsigned int n, const double low) {
+    return Grid{{{n, 1, n}}, [=](const Point<3> &x) { return Point<3>(x[0], x[1] + low, x[2]); }};
+  };
+  const Scene<3> scene =
+      two_bodies(block(2, 0), block(3, -1), {"bottom", "top"},
+                 {{"Material/Young's modulus", "200"},
+                  {"Material/Poisson's ratio", "0.3"},
+                  {"Contact joint/Friction bound", "0.2"},
+                  {"Boundary one.top/Displacement", "(t < 0.5 ? 0.3 : 0.1); -0.01; 0"},
+                  {"Boundary other.bottom/Displacement", "0; 0; 0"},
+                  {"Adaptivity/Maximum steps", "1"},
+                  {"Loading/Steps", "3"}});
+  unsigned int n = 0;
+  LoadHistory<3>(scene).run(
+      [&](const StepReport<3> &step)
+      {
+        ++n;
+        EXPECT_GE(step.energies.slack, -1e-10);
+        EXPECT_LT(step.energies.slack, 1e-2 * 0.2 * 0.2)
+            << n; // of what friction does in a load step
+      });
+  EXPECT_EQ(n, 3U);
+}
+
 /** Where two planes of one side meet the other one has an edge, too, or the pair is refused. */
 TEST(FacettedPairs, HaveTheSameEdges)
 {

@@ -11,7 +11,7 @@
 namespace hpvi
 {
 /**
- * Newton's method on displacements and contact dofs: meshes of boxes, of one degree, in the plane and in
+ * Newton's method on displacements and contact dofs: meshes of boxes, each body of one degree, in the plane and in
  * space, distributed over any number of processes; no dense matrix. Each step starts from the solution of
  * the one before.
  */

@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace hpvi
@@ -19,6 +20,20 @@ namespace hpvi
 /** What the scene names; `automatic`: multigrid where it is on offer, else amg; in the plane direct. */
 template <int dim>
 LinearMethod linear_method(const PrimalSpace<dim> &space);
+
+/**
+ * Of a process: matrix, its pattern, the levels of algebraic multigrid; or without a matrix vectors, unknowns and constraints of
+ * all levels, and degree one on the coarsest mesh with its algebraic multigrid. Measured to a quarter, without a matrix to a tenth.
+ */
+template <int dim>
+double expected_bytes(const PrimalSpace<dim> &space);
+
+template <int dim>
+std::string matrix_name(const PrimalSpace<dim> &space); ///< in messages about these
+
+/** Throws MemoryFailure on all processes where those of one machine need more than it has. Collective. */
+template <int dim>
+void require_room(const PrimalSpace<dim> &space);
 
 /**
  * All that Newton's method asks of the matrix: products with A, its blocks at the contact dofs, and

@@ -39,6 +39,16 @@ struct CheckValue
   }
 };
 
+/** Of all bodies. */
+template <int dim>
+unsigned int lowest_degree(const Scene<dim> &scene)
+{
+  unsigned int result = scene.start_degree_of(0);
+  for (unsigned int body = 1; body < scene.geometry.bodies.size(); ++body)
+    result = std::min(result, scene.start_degree_of(body));
+  return result;
+}
+
 template <int dim>
 void check_adaptivity(const Scene<dim> &scene)
 {
@@ -52,6 +62,13 @@ void check_adaptivity(const Scene<dim> &scene)
            "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
                "; lower the one or raise the other",
            start);
+  for (unsigned int body = 0; body < adaptivity.degrees_of_bodies.size(); ++body)
+    if (const unsigned int own = adaptivity.degrees_of_bodies[body];
+        own > adaptivity.maximum_degree)
+      reject(scene, "Body " + scene.geometry.bodies[body].name, "Start degree",
+             "exceeds Maximum degree = " + std::to_string(adaptivity.maximum_degree) +
+                 "; lower the one or raise the other",
+             std::to_string(own));
   if (scene.error_bound && scene.error_bound_last && adaptivity.indicator == Indicator::bound)
     reject(scene, "Adaptivity", "Indicator",
            "marks cells by the bound of each step, and Error/Bound = last step has it for the last "
@@ -101,22 +118,13 @@ void check_multiplier_degree(const Scene<dim> &scene, const SceneUse use)
            "contact boundary determine, the discrete inf-sup constant is 0; give -2, or "
            "measure the constant by hpvi --inf-sup",
            std::to_string(offset));
-  if (static_cast<int>(scene.adaptivity.start_degree) + offset < 0)
+  const unsigned int lowest = lowest_degree(scene);
+  if (static_cast<int>(lowest) + offset < 0)
     reject(scene, "Adaptivity", "Start degree",
            "is too low for contact: the multiplier has degree p - " + std::to_string(-offset) +
                "; give at least " + std::to_string(-offset) +
                " or raise Solver/Multiplier degree offset = " + std::to_string(offset),
-           std::to_string(scene.adaptivity.start_degree));
-}
-
-/** Of all bodies. */
-template <int dim>
-unsigned int lowest_degree(const Scene<dim> &scene)
-{
-  unsigned int result = scene.start_degree_of(0);
-  for (unsigned int body = 1; body < scene.geometry.bodies.size(); ++body)
-    result = std::min(result, scene.start_degree_of(body));
-  return result;
+           std::to_string(lowest));
 }
 
 template <int dim>
