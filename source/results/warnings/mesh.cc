@@ -123,10 +123,7 @@ Warnings locking(const Scene<dim> &scene, const BodyState<dim> &body)
     return {};
   return {{WarningKind::locking, locked->locking_ratio(dim),
            line(locked->locking_in_words(dim), " and elements of degree ", lowest,
-                scene.adaptivity.degrees_of_bodies.empty()
-                    ? " may lock; use Adaptivity/Start degree = 6"
-                    : " may lock; use Start degree = 6 of Adaptivity, or of the body that has its "
-                      "own")}};
+                " may lock; use Start degree = 6")}};
 }
 } // namespace
 
