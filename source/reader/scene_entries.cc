@@ -205,7 +205,8 @@ void add_program_entries(std::vector<Entry> &entries)
       {{"Solver", "Path", "auto", one_of(path_names), "auto, reduced or primal",
         "reduced: a quadratic program for the multipliers, with a dense matrix. primal: Newton's "
         "method on displacements and moments of contact, sparse throughout; boxes, one degree for "
-        "all cells of a body (hup, hap), bilateral or tangential contact with Tresca friction. auto: primal "
+        "all cells of a body (hup, hap), bilateral or tangential contact with Tresca friction. "
+        "auto: primal "
         "in space, on several processes, and where it offers what the scene asks for and the first "
         "mesh has so many multipliers that their dense algebra would take longer, from about 800 "
         "on; else reduced."},

@@ -27,7 +27,9 @@ inline Scene<3> two_bodies(const Grid &one, const Grid &other,
                            const std::pair<std::string, std::string> &between,
                            const Overrides &entries)
 {
-  const std::string name = "curved-bodies-" + std::to_string(getpid()); // processes write their own
+  const std::string name =
+      std::filesystem::temp_directory_path() /
+      ("curved-bodies-" + std::to_string(getpid())); // processes write their own
   one.write(name + "-one.msh");
   other.write(name + "-other.msh");
   std::ofstream out(name + ".prm");
