@@ -287,7 +287,8 @@ PRESSED = {"Boundary bottom/Contact": "unilateral", "Boundary bottom/Gap": "0.01
 FREE = {"Boundary bottom/Contact": "none", "Adaptivity/Method": "hup3"}
 BOUNDED = [("slab", "prm/slab.prm", {}), ("slab, one end a hundred times as stiff", "prm/slab.prm",
                                           {"Material stiff/Where": "2 - x", "Material stiff/Young's modulus": 1500, "Material stiff/Poisson's ratio": 0.3}),
-           ("dome", "prm/dome.prm", {}), ("cube on a curved floor", "prm/slab.prm", {**CUBE, **PRESSED}), ("cube, no contact, p = 3", "prm/slab.prm", {**CUBE, **FREE})]
+           ("dome", "prm/dome.prm", {}), ("cube on a curved floor", "prm/slab.prm", {**CUBE, **PRESSED}), ("cube on a flat floor", "prm/slab.prm", {**CUBE, "Boundary bottom/Contact": "unilateral"}),
+           ("cube, free below", "prm/slab.prm", {**CUBE, "Boundary bottom/Contact": "none"}), ("cube, no contact, p = 3", "prm/slab.prm", {**CUBE, **FREE})]
 
 
 def bound():
@@ -295,7 +296,7 @@ def bound():
     table = []
     for name, scene, entries in BOUNDED:
         stem = f"bound-{re.sub('[^a-z]+', '-', name)}"
-        J = run(f"{stem}-fine", scene, **{**entries, "Adaptivity/Method": "hap3", "Adaptivity/Maximum steps": 99, "Adaptivity/Maximum unknowns": 150000,
+        J = run(f"{stem}-fine", scene, **{**entries, "Adaptivity/Method": "hap3", "Adaptivity/Maximum steps": 99, "Adaptivity/Maximum unknowns": 300000,
                                           "Output/Reference solution": "true"})[-1]["energy"]
         for limit in (3000, 12000):
             last = run(f"{stem}-{limit}", scene, **{"Error/Bound": "last step", "Adaptivity/Maximum steps": 99, **entries, "Adaptivity/Maximum unknowns": limit,
