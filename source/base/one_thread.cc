@@ -29,7 +29,7 @@ int blas_threads = 0;      ///< before the first of them
 
 #ifdef __x86_64__
 /**
- * OpenBLAS 0.3.21 takes a processor that is younger than itself for the oldest that it knows: dense products take three times as long. It
+ * OpenBLAS 0.3.21 takes a processor that is younger than itself for the oldest that it knows: a bound takes 1.7 times as long. It
  * chooses when it is loaded, by a variable of the environment if there is one, and chooses again here. No other thread may use it meanwhile.
  */
 struct KernelsOfThisProcessor
