@@ -79,6 +79,14 @@ FrictionIteration<dim>::pressures(const std::vector<ContactVector<dim>> &lambda)
   return Vector<double>(all.begin(), all.end());
 }
 
+/** G of a friction at the pressures @p x. */
+template <int dim>
+double FrictionIteration<dim>::weight(const unsigned int i, const Vector<double> &x) const
+{
+  const ContactDof<dim> &contact_dof = space.contact[frictions[i]];
+  return contact_dof.area * contact_dof.limit.limit(x[first + i] / std::sqrt(contact_dof.area));
+}
+
 /**
  * Gives SemismoothNewton the limits of the pressures @p x. What sticks keeps its traction, what slips slips on, and where
  * there was no friction it acts against the slip.
@@ -91,9 +99,7 @@ void FrictionIteration<dim>::take_limits(const Vector<double> &x, const Distribu
   {
     const unsigned int k = frictions[i];
     const ContactDof<dim> &contact_dof = space.contact[k];
-    const double old = std::exchange(
-        weights[k],
-        contact_dof.area * contact_dof.limit.limit(x[first + i] / std::sqrt(contact_dof.area)));
+    const double old = std::exchange(weights[k], weight(i, x));
     if (lambda.empty())
       continue;
     const ContactVector<dim> slip = space.contact_value(v, k) - contact_dof.gap;
@@ -122,6 +128,10 @@ NewtonReport FrictionIteration<dim>::solve(DistributedVector &v,
     for (unsigned int i = 0; i < frictions.size(); ++i)
       x[first + i] =
           space.scene.materials[0].modulus(dim) * std::sqrt(space.contact[frictions[i]].area);
+  if (!is_cold) // of a solution on another mesh or of the step before, in units of the limits there
+    for (unsigned int i = 0; i < frictions.size(); ++i)
+      if (lambda[frictions[i]].norm() > 0)
+        weights[frictions[i]] = weight(i, x);
   take_limits(x, v, lambda);
   NewtonReport report, left = is_cold ? NewtonReport() : newton.measure(v, lambda, settings);
   left.residual = is_cold ? 0.1 : left.residual;

@@ -9,6 +9,7 @@
 #include <hpvi/results/stored_solution.h>
 #include <hpvi/space/box_bound_stages.h>
 #include <hpvi/space/friction_coupling.h>
+#include <hpvi/space/friction_iteration.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -178,6 +179,27 @@ TEST(Coulomb, TheLawHoldsAtPoints)
                   EXPECT_GT(n_slipping + n_sticking, 0u);
                   EXPECT_EQ(step.primal->newton.n_slipping, n_slipping);
                 });
+}
+
+/** A solution that is handed to it again takes no step: the friction of a mesh or a load step before is kept. */
+TEST(Coulomb, GoesOnFromWhatItHasFound)
+{
+  for (const Overrides &law : laws)
+    steps_of<3>(
+        rubbing_slab(law),
+        [](const StepReport<3> &step)
+        {
+          const PrimalSpace<3> &space = step.primal->space;
+          PrimalSystem<3> system(space);
+          NewtonMatrix<3> matrix(space, system);
+          SemismoothNewton<3> newton(space, system, matrix);
+          NewtonSettings settings;
+          settings.residual = 1e-8;
+          DistributedVector v = space.owned_vector();
+          std::vector<ContactVector<3>> lambda;
+          EXPECT_GT(FrictionIteration<3>(space, newton).solve(v, lambda, settings).steps, 2u);
+          EXPECT_EQ(FrictionIteration<3>(space, newton).solve(v, lambda, settings).steps, 0u);
+        });
 }
 
 /** A law that does not let go: the run ends with what to try. */

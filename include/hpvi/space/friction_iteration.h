@@ -34,6 +34,7 @@ public:
 
 private:
   dealii::Vector<double> pressures(const std::vector<ContactVector<dim>> &lambda) const;
+  double weight(unsigned int i, const dealii::Vector<double> &x) const;
   void take_limits(const dealii::Vector<double> &x, const DistributedVector &v,
                    std::vector<ContactVector<dim>> &lambda);
 
