@@ -152,13 +152,14 @@ std::array<PatchFace, 2> FaceIntegrals<dim>::sides() const
   return result;
 }
 
-/** Do the faces of two sides lie on one straight line? What two bodies opposite share is no friction of either. */
+/** Do the faces of two sides meet without a corner? What two bodies opposite share is no friction of either. */
 template <int dim>
 bool are_aligned(const PatchFace &a, const PatchFace &b, const std::vector<ContactFace<dim>> &faces)
 {
   const bool rubs_bodies = !faces[a.face].segments.empty() || !faces[b.face].segments.empty();
   return !(rubs_bodies && faces[a.face].condition != faces[b.face].condition) &&
-         (faces[a.face].frame(0.5).normal - faces[b.face].frame(0.5).normal).norm() < 1e-6;
+         (faces[a.face].node_frame(a.end).normal - faces[b.face].node_frame(b.end).normal).norm() <
+             1e-6;
 }
 } // namespace
 

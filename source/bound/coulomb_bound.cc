@@ -3,22 +3,18 @@
 // Under Coulomb's law no energy is least, but a stress in equilibrium whose own tractions obey the law, $\tau = \mu_f\chi\pi$ with
 // $|\chi| \le 1$, bounds the error of every solution, enlarged by what one number says: how strongly friction couples
 // back into pressure. doc/coulomb.md has the theorem and its proof.
-#include <hpvi/algebra/restricted_energy.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/bound/coulomb_bound.h>
 #include <hpvi/bound/coulomb_coupling.h>
-#include <hpvi/bound/nodal_displacement.h>
 #include <hpvi/bound/pressed_face.h>
 
 #include <boost/math/tools/minima.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 namespace hpvi
 {
@@ -78,31 +74,13 @@ namespace
 //
 // Where U slips against $\chi$, or the body sticks with some slip left, a part M of the slip meets the unknown pressure. A bubble M' above it
 // is a part of the gap, and the normal trace of an explicit displacement X' that carries it.
-/** M' on a face: linear between both ends, and a part of s (1 - s). */
-struct Bump
-{
-  std::array<double, 2> ends{};
-  double inside = 0;
-
-  double operator()(const double s) const
-  {
-    return (1. - s) * ends[0] + s * ends[1] + s * (1. - s) * inside;
-  }
-
-  bool is_zero() const
-  {
-    return ends[0] == 0. && ends[1] == 0. && inside == 0.;
-  }
-};
-
 /** Of what the samples of a face miss between them. */
 constexpr double reserve = 1.1;
 
 class Excess
 {
 public:
-  Excess(const Solution<2> &solution, const ContactCorrection<2> &correction,
-         const SlipDirection &chi);
+  Excess(const Solution<2> &solution, const AdmissibleContact &contact, const SlipDirection &chi);
 
   double operator()(unsigned int face,
                     double s) const; ///< (mu_f (|U_t| - chi U_t) - (u_0 - U_n))_+
@@ -112,14 +90,11 @@ public:
     return all;
   }
 
-  /** |X'|_a; infinite where supports are in the way. */
-  double lift(const Solution<2> &solution, const Discretisation<2> &discretisation) const;
-
 private:
-  std::vector<bool> near_bumps() const; ///< faces that touch one with a bump, or have one
+  void set_inside(unsigned int face);
 
   const std::vector<ContactFace<2>> &faces;
-  const ContactCorrection<2> &correction;
+  const AdmissibleContact &contact;
   const SlipDirection &chi;
   double round_off; ///< [length]
   std::vector<Bump> all;
@@ -129,17 +104,16 @@ double Excess::operator()(const unsigned int face, const double s) const
 {
   if (!chi[face])
     return 0.;
-  const double u_t = correction.slip(face)(s),
+  const double u_t = contact.slip(face, s),
                against = std::abs(u_t) * (1. - (u_t < 0. ? -1. : 1.) * chi[face](s)),
                mu = faces[face].friction_coefficient(faces[face].point(s)),
-               room = std::max(0., -correction.penetration_along(face)(s)),
-               value = mu * against - room;
+               room = std::max(0., contact.room(face, s)), value = mu * against - room;
   return value > round_off ? value : 0.;
 }
 
-Excess::Excess(const Solution<2> &solution, const ContactCorrection<2> &correction,
+Excess::Excess(const Solution<2> &solution, const AdmissibleContact &contact,
                const SlipDirection &chi)
-    : faces(solution.contact_space.faces()), correction(correction), chi(chi),
+    : faces(solution.contact_space.faces()), contact(contact), chi(chi),
       round_off(1e-12 * solution.u.linfty_norm()), all(faces.size())
 {
   std::map<std::pair<unsigned int, const BoundaryCondition<2> *>, double> at_vertices;
@@ -154,110 +128,50 @@ Excess::Excess(const Solution<2> &solution, const ContactCorrection<2> &correcti
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     all[k].ends = {{height(k, 0), height(k, 1)}};
-    const unsigned int m = 4 * (faces[k].degree + 9);
-    double inside = 0;
+    set_inside(k);
+  }
+}
+
+void Excess::set_inside(const unsigned int k)
+{
+  const unsigned int m = 4 * (faces[k].degree + 9);
+  const std::vector<double> kinks = contact.kinks(k);
+  double inside = 0;
+  for (unsigned int piece = 0; piece + 1 < kinks.size(); ++piece)
     for (unsigned int i = 0; i < m; ++i)
     {
-      const double s = 0.5 * (1. - std::cos((i + 0.5) * numbers::PI / m)), M = (*this)(k, s);
+      const double s = kinks[piece] + (kinks[piece + 1] - kinks[piece]) * 0.5 *
+                                          (1. - std::cos((i + 0.5) * numbers::PI / m)),
+                   M = (*this)(k, s);
       if (M > 0.)
         inside = std::max(inside, (reserve * M - all[k](s)) / (s * (1. - s)));
     }
-    all[k].inside = inside;
-  }
-}
-
-// X' moves nodes of these faces alone, and vanishes along those farther away: they need no wishes. Where bodies touch all have some.
-std::vector<bool> Excess::near_bumps() const
-{
-  std::set<unsigned int> vertices;
-  const auto ends = [&](const unsigned int k)
-  {
-    const auto face = faces[k].cell->face(faces[k].face_no);
-    return std::array<unsigned int, 2>{{face->vertex_index(0), face->vertex_index(1)}};
-  };
-  bool has_pairs = false;
-  for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    has_pairs = has_pairs || !faces[k].segments.empty();
-    if (!all[k].is_zero())
-      for (const unsigned int vertex : ends(k))
-        vertices.insert(vertex);
-  }
-  std::vector<bool> result(faces.size());
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    result[k] = has_pairs || vertices.count(ends(k)[0]) > 0 || vertices.count(ends(k)[1]) > 0;
-  return result;
-}
-
-double Excess::lift(const Solution<2> &solution, const Discretisation<2> &discretisation) const
-{
-  if (std::all_of(all.begin(), all.end(), [](const Bump &bump) { return bump.is_zero(); }))
-    return 0.;
-  const NodeFreedom freedom(solution, discretisation.unknowns);
-  NodalDisplacement<2> X(solution, freedom);
-  const std::vector<bool> near = near_bumps();
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (near[k] && (faces[k].condition->friction || faces[k].condition->is_tied()))
-      X.wish(faces[k], faces[k].frame(0.5).tangent, [](const double) { return 0.; });
-  for (unsigned int k = 0; k < faces.size(); ++k)
-    if (near[k])
-      X.wish(faces[k], faces[k].frame(0.5).normal, all[k]);
-  X.move();
-  double largest = 0;
-  for (const Bump &bump : all)
-    largest = std::max({largest, bump.ends[0], bump.ends[1], bump.inside});
-  for (unsigned int k = 0; k < faces.size(); ++k)
-  {
-    const auto along = [&](const Tensor<1, 2> &direction)
-    { return edge_trace(faces[k], direction, solution.displacement_space, solution.tables, X.u); };
-    const EdgePolynomial normal = along(faces[k].frame(0.5).normal),
-                         tangent = along(faces[k].frame(0.5).tangent);
-    if (faces[k].condition->friction && tangent.largest() > 1e-9 * largest)
-      return std::numeric_limits<double>::infinity();
-    for (unsigned int i = 0; i <= 8; ++i)
-      if (std::abs(normal(i / 8.) - all[k](i / 8.)) > 1e-9 * largest)
-        return std::numeric_limits<double>::infinity();
-  }
-  const Vector<double> x = discretisation.unknowns.coordinates(X.u);
-  return std::sqrt(std::max(0., BorderedMatrix{discretisation.system.A, {}}.energy(x)));
+  all[k].inside = inside;
 }
 
 /** int pi (u_0 - U_n + M') over contact, and int g (|U_t| - l* U_t) of what friction has without pressure. */
-double gap_of(const Solution<2> &solution, const AdmissibleFriction<2> &friction,
-              const AdmissiblePressure<2> &pressure, const ContactCorrection<2> &correction,
+double gap_of(const Solution<2> &solution, const AdmissibleContact &contact,
               const std::vector<Bump> &bumps)
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
   double result = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
+    const bool is_unilateral = faces[k].condition->is_unilateral(),
+               has_bound = faces[k].condition->friction.bound && faces[k].n_multipliers > 0;
+    if (!is_unilateral && !has_bound)
+      continue;
     double of_face = 0;
-    if (faces[k].condition->is_unilateral())
+    for (const auto &[s, ds] : contact.points(k))
     {
-      const EdgePolynomial pi = pressure.value(k), &depth = correction.penetration_along(k);
-      const QGauss<1> &gauss = solution.tables.gauss(
-          std::max(pi.coefficients().size(), depth.coefficients().size()) + 2);
-      for (unsigned int q = 0; q < gauss.size(); ++q)
+      if (is_unilateral)
+        of_face += ds * contact.pressure(k, s) * (bumps[k](s) + contact.room(k, s));
+      if (has_bound)
       {
-        const double s = gauss.point(q)[0];
-        of_face += faces[k].length * gauss.weight(q) * pi(s) * (bumps[k](s) - depth(s));
+        const double value = contact.slip(k, s);
+        of_face += ds * faces[k].friction_bound(faces[k].point(s)) *
+                   (std::abs(value) - contact.direction(k, s) * value);
       }
-    }
-    if (faces[k].condition->friction.bound && faces[k].n_multipliers > 0)
-    {
-      const EdgePolynomial &v = correction.slip(k);
-      std::vector<double> cuts = v.zeros();
-      cuts.insert(cuts.end(), faces[k].friction.cuts.begin(), faces[k].friction.cuts.end());
-      std::sort(cuts.begin(), cuts.end());
-      const QGauss<1> &gauss = solution.tables.gauss(faces[k].degree + 8);
-      for (unsigned int i = 0; i + 1 < cuts.size(); ++i)
-        for (unsigned int q = 0; q < gauss.size(); ++q)
-        {
-          const double s = cuts[i] + (cuts[i + 1] - cuts[i]) * gauss.point(q)[0], value = v(s);
-          of_face += faces[k].length * (cuts[i + 1] - cuts[i]) * gauss.weight(q) *
-                     faces[k].friction_bound(faces[k].point(s)) *
-                     (std::abs(value) - friction.value(k, s) * value);
-        }
     }
     result += std::max(0., of_face);
   }
@@ -270,14 +184,16 @@ double gap_of(const Solution<2> &solution, const AdmissibleFriction<2> &friction
 // The coupling of chi may allow a bound for every solution. If not, that of a solution which sticks and slips where u_N does may. Else
 // Tresca's bound for the same stress is an estimate.
 void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
-                        const Discretisation<2> &discretisation,
-                        const AdmissibleFriction<2> &friction,
-                        const AdmissiblePressure<2> &pressure,
-                        const ContactCorrection<2> &correction, const double A, const double b)
+                        const AdmissibleContact &contact, const double A, const double b)
 {
   result.kind = BoundKind::estimate;
   for (const ContactFace<2> &face : solution.contact_space.faces())
-    if (face.condition->friction && !face.condition->friction.is_proportional())
+    if (!face.condition->is_unilateral() && face.condition->friction.knows_pressure())
+    {
+      result.why = "the coupling of friction and pressure is not known where contact is bilateral";
+      return;
+    }
+    else if (face.condition->friction && !face.condition->friction.is_proportional())
     {
       result.why = face.condition->friction.name() +
                    " has no bound of the error, whatever the coupling: its limit follows the "
@@ -288,12 +204,13 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
   const CoulombCoupling couple(solution, spaces);
   const auto bound = [&](const SlipDirection &chi)
   {
-    const Excess excess(solution, correction, chi);
-    return coulomb_bound(result.coupling,
-                         {A, gap_of(solution, friction, pressure, correction, excess.bumps()), b,
-                          excess.lift(solution, discretisation)});
+    const std::vector<Bump> bumps = Excess(solution, contact, chi).bumps();
+    const bool is_zero =
+        std::all_of(bumps.begin(), bumps.end(), [](const Bump &bump) { return bump.is_zero(); });
+    return coulomb_bound(result.coupling, {A, gap_of(solution, contact, bumps), b,
+                                           is_zero ? 0. : contact.lift(bumps)});
   };
-  const SlipDirection chi = slip_direction(solution, friction, correction);
+  const SlipDirection chi = slip_direction(solution, contact);
   result.why = couple.unbounded_at(chi);
   if (result.why.empty())
   {
@@ -310,7 +227,7 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
     result.why = "the coupling of friction, " + text(result.coupling, 3) +
                  ", is too strong for a bound of the error";
   }
-  const SlipZones zones = slip_zones(solution, correction);
+  const SlipZones zones = slip_zones(solution, contact);
   if (zones.contradicts || !couple.unbounded_at(zones.direction, zones.sticks).empty())
     return;
   const double known = std::exchange(result.coupling, couple(zones.direction, zones.sticks));

@@ -23,7 +23,7 @@ constexpr double margin = 1.05;
 struct BoundaryEdge
 {
   const BoundaryCondition<2> *condition;
-  Tensor<1, 2> normal;
+  Tensor<1, 2> normal; ///< of the curve, or the direction that contact is along
   Point<2> vertex;
 };
 
@@ -37,10 +37,15 @@ EdgesAtVertices edges_at_vertices(const Solution<2> &solution)
       if (cell->face(f)->at_boundary() &&
           cell->face(f)->boundary_id() < solution.scene.boundaries.size())
         for (unsigned int end = 0; end < 2; ++end)
+        {
+          const BoundaryCondition<2> &condition =
+              solution.scene.boundaries[cell->face(f)->boundary_id()];
           result[cell->face(f)->vertex_index(end)].push_back(
-              {&solution.scene.boundaries[cell->face(f)->boundary_id()],
-               map_of<2>(cell).normal(f, point_on_face<2>(f, Point<1>(end))),
+              {&condition,
+               condition.held_direction(
+                   map_of<2>(cell).curve_normal(f, point_on_face<2>(f, Point<1>(end)))),
                cell->face(f)->vertex(end)});
+        }
   return result;
 }
 
@@ -79,8 +84,9 @@ std::map<unsigned int, double> angles_at_vertices(const Solution<2> &solution)
     if (cell->at_boundary())
       for (unsigned int v = 0; v < 4; ++v)
       {
-        const Tensor<1, 2> a = cell->vertex(v ^ 1U) - cell->vertex(v),
-                           b = cell->vertex(v ^ 2U) - cell->vertex(v);
+        const Tensor<2, 2> J =
+            transpose(map_of<2>(cell).jacobian(GeometryInfo<2>::unit_cell_vertex(v)));
+        const Tensor<1, 2> a = (v & 1U ? -1. : 1.) * J[0], b = (v & 2U ? -1. : 1.) * J[1];
         result[cell->vertex_index(v)] += std::acos((a * b) / (a.norm() * b.norm()));
       }
   return result;
@@ -95,14 +101,25 @@ double half_plane_coupling(const Material &material)
   return 1. / std::sqrt(1. - beta * beta);
 }
 
-double free_wedge_coupling(const double angle)
+namespace
+{
+/** d'Md/(det M)^{1/2} for the unit vector d with @p along the first axis. */
+double share_along(const double along, const double across, const double tt, const double nn,
+                   const double tn)
+{
+  return (along * along * tt + across * across * nn + 2 * along * across * tn) /
+         std::sqrt(tt * nn - tn * tn);
+}
+} // namespace
+
+double free_wedge_coupling(const double angle, const double turn)
 {
   const double tt = angle / 2 + std::sin(2 * angle) / 4, nn = angle / 2 - std::sin(2 * angle) / 4,
                tn = std::pow(std::sin(angle), 2) / 2;
-  return nn / std::sqrt(tt * nn - tn * tn);
+  return share_along(std::sin(turn), -std::cos(turn), tt, nn, tn);
 }
 
-double clamped_wedge_coupling(const double angle, const Material &material)
+double clamped_wedge_coupling(const double angle, const Material &material, const double turn)
 {
   if (material.orthotropy)
     return 1.;
@@ -110,7 +127,7 @@ double clamped_wedge_coupling(const double angle, const Material &material)
       half = angle / 2, wave = std::sin(2 * angle) / 4, tt = ratio * (half - wave) + half + wave,
                nn = ratio * (half + wave) + half - wave,
                tn = (1 - ratio) * std::pow(std::sin(angle), 2) / 2;
-  return tt / std::sqrt(tt * nn - tn * tn);
+  return share_along(std::cos(turn), std::sin(turn), tt, nn, tn);
 }
 
 /** What meets at the vertices of the boundary. */
@@ -134,12 +151,13 @@ namespace
 /** A face whose friction has no point in the space would be left out of the coupling. */
 void require_all_seen(const ContactSpace<2> &space, const FrictionAlong &friction)
 {
-  for (const auto &[boundary, x] : friction.middles())
+  for (const auto &[edge, x] : friction.acting())
     if (std::none_of(space.faces().begin(), space.faces().end(),
-                     [&, boundary = boundary, x = x](const ContactFace<2> &face)
+                     [&, edge = edge](const ContactFace<2> &face)
                      {
-                       return face.n_multipliers > 0 && face.condition->id == boundary &&
-                              StraightEdge{boundary, face.point(0.), face.point(1.)}.place(x);
+                       const EdgePart own(face.cell, face.face_no);
+                       return face.n_multipliers > 0 &&
+                              (own.has_middle_of(edge) || edge.has_middle_of(own));
                      }))
       throw NumericalFailure("friction at " + to_string(x) +
                              " has no point in the space of its coupling");
@@ -169,12 +187,13 @@ CoulombCoupling::Unknowns CoulombCoupling::unknowns(const ContactCompliance &com
     if (!face.condition->friction.knows_pressure())
       continue;
     const QGauss<1> &gauss = compliance.spaces->tables->gauss(std::max(1U, face.n_multipliers));
+    const EdgePart edge(face.cell, face.face_no);
     for (unsigned int i = 0; i < face.n_multipliers; ++i)
     {
       const unsigned int t = face.first_multiplier + i, n = multipliers[t].partner;
       const double s = gauss.point(i)[0];
       const FrictionAlong::Value value =
-          raised ? friction.on_face(k, s) : friction(face.condition->id, face.point(s));
+          raised ? friction.on_face(k, s) : friction(edge, s, face.point(s));
       if (value.sticks)
         result.held.push_back(t);
       else if (n == numbers::invalid_unsigned_int)
@@ -232,15 +251,20 @@ double CoulombCoupling::closed_forms(const SlipDirection &chi,
       const auto found = edges.find(vertex);
       if (found == edges.end() || found->second.size() != 2)
         continue;
+      const ContactFrame<2> side = contact_frame(faces[k].map, faces[k].face_no, Point<1>(end));
+      const double inwards = (faces[k].point(0.5) - side.x) * side.tangent < 0. ? -1. : 1.,
+                   angle = angles.at(vertex);
+      const Tensor<1, 2> normal = faces[k].node_frame(end).normal;
+      const double turn = std::atan2(inwards * (side.tangent * normal), side.normal * normal);
       for (const BoundaryEdge &edge : found->second)
         if (edge.condition == faces[k].condition)
           continue;
         else if (held_directions(edge, true).empty())
-          result = std::max(result, at(end) * free_wedge_coupling(angles.at(vertex)));
+          result = std::max(result, at(end) * free_wedge_coupling(angle, turn));
         else if (is_clamped(edge))
-          result = std::max(
-              result, at(end) * clamped_wedge_coupling(angles.at(vertex),
-                                                       solution.scene.material_of(faces[k].cell)));
+          result = std::max(result,
+                            at(end) * clamped_wedge_coupling(
+                                          angle, solution.scene.material_of(faces[k].cell), turn));
     }
   }
   return result;
@@ -273,13 +297,13 @@ std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &f
     if (!chi[k] || (!sticks.empty() && sticks[k]))
       continue;
     const auto mu = [&](const double s)
-    { return faces[k].friction_coefficient(faces[k].point(s)) * std::abs(chi[k](s)); };
+    { return faces[k].friction_coefficient(faces[k].point(s)) * chi[k](s); };
     for (const double cut : faces[k].coefficient.cuts)
       if (cut > hair && cut < 1 - hair && differ(mu(cut - hair), mu(cut + hair)))
         return faces[k].point(cut);
     for (unsigned int end = 0; end < 2; ++end)
     {
-      const End own{faces[k].frame(0.5).normal, mu(end == 0 ? hair : 1 - hair)};
+      const End own{faces[k].node_frame(end).normal, mu(end == 0 ? hair : 1 - hair)};
       const auto [known, is_new] =
           at_vertices.emplace(faces[k].cell->face(faces[k].face_no)->vertex_index(end), own);
       if (!is_new && (known->second.normal - own.normal).norm() < 1e-6 &&
@@ -306,7 +330,7 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
       const Point<2> x = faces[k].point(end);
       if (std::abs(chi[k](end)) * faces[k].friction_coefficient(x) < 1e-8)
         continue;
-      const ContactFrame<2> frame = faces[k].frame(end);
+      const ContactFrame<2> frame = faces[k].node_frame(end);
       const auto is_bad = [&](const std::vector<BoundaryEdge> &around)
       {
         bool X_vanishes = false;

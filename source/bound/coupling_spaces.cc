@@ -36,63 +36,20 @@ bool has_coupling(const Triangulation<2>::cell_iterator &cell, const unsigned in
          scene.boundaries[cell->face(face)->boundary_id()].friction.knows_pressure();
 }
 
-StraightEdge edge_of(const Triangulation<2>::cell_iterator &cell, const unsigned int face)
-{
-  return {cell->face(face)->boundary_id(), cell->face(face)->vertex(0),
-          cell->face(face)->vertex(1)};
-}
-
 template <class F>
 void for_each_coupled_edge(const Triangulation<2> &mesh, const Scene<2> &scene, const F &f)
 {
   for (const auto &cell : mesh.active_cell_iterators())
     for (const unsigned int face : cell->face_indices())
       if (has_coupling(cell, face, scene))
-        f(cell, edge_of(cell, face));
+        f(cell, face);
 }
 
-/** Vertices where contact with friction ends, or goes on in another direction. */
-std::vector<Point<2>> ends_of_contact(const Triangulation<2> &mesh, const Scene<2> &scene)
+bool is_on_foundation(const ContactFace<2> &face)
 {
-  struct Around
-  {
-    std::vector<StraightEdge> edges;
-    bool is_coupled = false;
-  };
-  std::map<unsigned int, Around> vertices;
-  for (const auto &cell : mesh.active_cell_iterators())
-    for (const unsigned int face : cell->face_indices())
-      if (cell->at_boundary(face))
-        for (unsigned int end = 0; end < 2; ++end)
-        {
-          Around &around = vertices[cell->face(face)->vertex_index(end)];
-          around.edges.push_back(edge_of(cell, face));
-          around.is_coupled = around.is_coupled || has_coupling(cell, face, scene);
-        }
-  std::vector<Point<2>> result;
-  for (const auto &[vertex, around] : vertices)
-  {
-    const StraightEdge &first = around.edges.front(), &last = around.edges.back();
-    const double turn = std::abs(cross_product_2d(first.b - first.a) * (last.b - last.a)) /
-                        (first.length() * last.length());
-    if (around.is_coupled &&
-        (around.edges.size() != 2 || first.boundary != last.boundary || turn > 1e-6))
-      result.push_back(mesh.get_vertices()[vertex]);
-  }
-  return result;
+  return face.segments.empty();
 }
 
-/** Does the face lie on a straight foundation, measured along its normal? */
-bool is_on_straight_foundation(const ContactFace<2> &face)
-{
-  if (!face.segments.empty() || face.is_axisymmetric)
-    return false;
-  const Tensor<1, 2> normal = contact_frame(face.map, face.face_no, Point<1>(0.5)).normal;
-  for (const double s : {0., 0.25, 0.75, 1.})
-    if ((face.frame(s).normal - normal).norm() > 1e-12)
-      return false;
-  return true;
-}
 /** L of a symmetric matrix; false: it is not positive definite. */
 bool factor(FullMatrix<double> &A)
 {
@@ -269,14 +226,12 @@ double CouplingMatrices::largest_eigenvalue(const Vector<double> &D) const
 
 // @sect3{Places along contact}
 
-std::optional<double> StraightEdge::place(const Point<2> &x) const
+EdgePart::EdgePart(Triangulation<2>::cell_iterator cell, const unsigned int face)
+    : face(face), begin(on_coarse_edge(cell, face, 0.)), end(on_coarse_edge(cell, face, 1.))
 {
-  constexpr double near = 1e-7;
-  const Tensor<1, 2> along = b - a, from = x - a;
-  const double square = along.norm_square(), s = (from * along) / square;
-  if (s < -near || s > 1 + near || std::abs(cross_product_2d(along) * from) > near * square)
-    return std::nullopt;
-  return std::max(0., std::min(1., s));
+  while (cell->level() > 0)
+    cell = cell->parent();
+  coarse_cell = cell->index();
 }
 
 FrictionAlong::FrictionAlong(const std::vector<ContactFace<2>> &faces, const SlipDirection &chi,
@@ -286,10 +241,7 @@ FrictionAlong::FrictionAlong(const std::vector<ContactFace<2>> &faces, const Sli
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (chi[k])
     {
-      Part part{{faces[k].condition->id, faces[k].point(0.), faces[k].point(1.)},
-                faces[k].point(0.5),
-                k,
-                {}};
+      Part part{EdgePart(faces[k].cell, faces[k].face_no), k, {}};
       for (unsigned int i = 0; i < n_samples; ++i)
         part.samples[i] = on_face(k, double(i) / (n_samples - 1)).coefficient;
       parts.push_back(part);
@@ -303,40 +255,36 @@ FrictionAlong::Value FrictionAlong::on_face(const unsigned int face, const doubl
   return {coefficient, !sticks.empty() && sticks[face]};
 }
 
-FrictionAlong::Value FrictionAlong::operator()(const types::boundary_id boundary,
-                                               const Point<2> &x) const
+FrictionAlong::Value FrictionAlong::operator()(const EdgePart &edge, const double s,
+                                               const Point<2> &place) const
 {
-  for (const Part &part : parts)
-    if (part.edge.boundary == boundary)
-      if (const std::optional<double> s = part.edge.place(x))
-        return on_face(part.face, *s);
-  throw NumericalFailure("friction at " + to_string(x) + " is not found on the mesh of the step");
+  for (const auto &[own, face, samples] : parts)
+    if (own.is_of_same_edge(edge) && edge.at(s) >= own.begin && edge.at(s) <= own.end)
+      return on_face(face, (edge.at(s) - own.begin) / own.length());
+  throw NumericalFailure("friction at " + to_string(place) +
+                         " is not found on the mesh of the step");
 }
 
-FrictionAlong::Variation FrictionAlong::along(const StraightEdge &edge) const
+FrictionAlong::Variation FrictionAlong::along(const EdgePart &edge) const
 {
-  const Point<2> middle = edge.a + 0.5 * (edge.b - edge.a);
   double low = std::numeric_limits<double>::infinity(), high = -low, shortest = low;
   const auto add = [&](const double value)
   {
     low = std::min(low, value);
     high = std::max(high, value);
   };
-  for (const Part &part : parts)
+  for (const auto &[own, face, samples] : parts)
   {
-    if (part.edge.boundary != edge.boundary)
-      continue;
-    if (edge.place(part.middle))
-      for (const double sample : part.samples)
+    if (edge.has_middle_of(own))
+      for (const double sample : samples)
         add(sample);
-    else if (part.edge.place(middle))
+    else if (own.has_middle_of(edge))
       for (unsigned int i = 0; i < n_samples; ++i)
-        add(on_face(part.face, *part.edge.place(middle) + (double(i) / (n_samples - 1) - 0.5) *
-                                                              edge.length() / part.edge.length())
+        add(on_face(face, (edge.at(double(i) / (n_samples - 1)) - own.begin) / own.length())
                 .coefficient);
     else
       continue;
-    shortest = std::min(shortest, part.edge.length());
+    shortest = std::min(shortest, own.length());
   }
   return high < low ? Variation{0., edge.length()} : Variation{high - low, shortest};
 }
@@ -350,12 +298,12 @@ double FrictionAlong::largest() const
   return result;
 }
 
-std::vector<std::pair<types::boundary_id, Point<2>>> FrictionAlong::middles() const
+std::vector<std::pair<EdgePart, Point<2>>> FrictionAlong::acting() const
 {
-  std::vector<std::pair<types::boundary_id, Point<2>>> result;
+  std::vector<std::pair<EdgePart, Point<2>>> result;
   for (const Part &part : parts)
     if (part.samples[n_samples / 2] != 0.)
-      result.emplace_back(part.edge.boundary, part.middle);
+      result.emplace_back(part.edge, faces[part.face].point(0.5));
   return result;
 }
 
@@ -379,23 +327,55 @@ void CouplingSpaces::begin(const Solution<2> &solution)
   elements = std::make_unique<CondensedElements<2>>(*scene, *first->tables);
   Triangulation<2> coarse;
   make_mesh(*scene, coarse);
-  for_each_coupled_edge(coarse, *scene,
-                        [&](const auto &, const StraightEdge &edge)
-                        { coarse_edges.push_back(edge); });
-  ends = ends_of_contact(coarse, *scene);
+  coarse_edges = coupled_edges(coarse, *scene);
 }
 
-std::vector<StraightEdge> CouplingSpaces::wanted_edges(const FrictionAlong &friction) const
+/** Contact ends at vertices where it does not go on without a corner. */
+std::vector<CouplingSpaces::CoarseEdge>
+CouplingSpaces::coupled_edges(const Triangulation<2> &coarse, const Scene<2> &scene)
+{
+  struct Around
+  {
+    std::vector<types::boundary_id> boundaries;
+    std::vector<Tensor<1, 2>> normals;
+  };
+  std::map<unsigned int, Around> vertices;
+  for (const auto &cell : coarse.active_cell_iterators())
+    for (const unsigned int face : cell->face_indices())
+      if (cell->at_boundary(face))
+        for (unsigned int end = 0; end < 2; ++end)
+        {
+          Around &around = vertices[cell->face(face)->vertex_index(end)];
+          around.boundaries.push_back(cell->face(face)->boundary_id());
+          around.normals.push_back(
+              map_of<2>(cell).curve_normal(face, point_on_face<2>(face, Point<1>(end))));
+        }
+  const auto ends_at = [&](const unsigned int vertex)
+  {
+    const Around &around = vertices[vertex];
+    return around.boundaries.size() != 2 || around.boundaries[0] != around.boundaries[1] ||
+           std::abs(cross_product_2d(around.normals[0]) * around.normals[1]) > 1e-6;
+  };
+  std::vector<CoarseEdge> result;
+  for_each_coupled_edge(coarse, scene,
+                        [&](const auto &cell, const unsigned int face)
+                        {
+                          result.push_back({EdgePart(cell, face),
+                                            {{ends_at(cell->face(face)->vertex_index(0)),
+                                              ends_at(cell->face(face)->vertex_index(1))}}});
+                        });
+  return result;
+}
+
+std::vector<EdgePart> CouplingSpaces::wanted_edges(const FrictionAlong &friction) const
 {
   const double most = resolution.variation * friction.largest();
-  std::vector<StraightEdge> result;
-  const std::function<void(const StraightEdge &, unsigned int)> add =
-      [&](const StraightEdge &edge, const unsigned int level)
+  std::vector<EdgePart> result;
+  const std::function<void(const CoarseEdge &, unsigned int)> add =
+      [&](const CoarseEdge &part, const unsigned int level)
   {
-    const bool is_at_end =
-        std::any_of(ends.begin(), ends.end(),
-                    [&](const Point<2> &end) { return end == edge.a || end == edge.b; });
-    bool is_long = level < resolution.layers && is_at_end;
+    const auto &[edge, ends] = part;
+    bool is_long = level < resolution.layers && (ends[0] || ends[1]);
     if (!is_long && level < most_bisections)
     {
       const FrictionAlong::Variation found = friction.along(edge);
@@ -404,17 +384,16 @@ std::vector<StraightEdge> CouplingSpaces::wanted_edges(const FrictionAlong &fric
     }
     if (!is_long)
       return result.push_back(edge);
-    const Point<2> middle = edge.a + 0.5 * (edge.b - edge.a);
-    add({edge.boundary, edge.a, middle}, level + 1);
-    add({edge.boundary, middle, edge.b}, level + 1);
+    add({edge.half(false), {{ends[0], false}}}, level + 1);
+    add({edge.half(true), {{false, ends[1]}}}, level + 1);
   };
-  for (const StraightEdge &edge : coarse_edges)
+  for (const CoarseEdge &edge : coarse_edges)
     add(edge, 0);
   return result;
 }
 
 std::shared_ptr<const Spaces<2>>
-CouplingSpaces::space_with(const std::vector<StraightEdge> &edges) const
+CouplingSpaces::space_with(const std::vector<EdgePart> &edges) const
 {
   const auto mesh = std::make_shared<Triangulation<2>>();
   make_mesh(*scene, *mesh);
@@ -422,12 +401,12 @@ CouplingSpaces::space_with(const std::vector<StraightEdge> &edges) const
   {
     is_changed = false;
     for_each_coupled_edge(*mesh, *scene,
-                          [&](const auto &cell, const StraightEdge &edge)
+                          [&](const auto &cell, const unsigned int face)
                           {
-                            for (const StraightEdge &wanted : edges)
-                              if (wanted.boundary == edge.boundary &&
-                                  wanted.length() < 0.75 * edge.length() &&
-                                  edge.place(wanted.a + 0.5 * (wanted.b - wanted.a)))
+                            const EdgePart own(cell, face);
+                            for (const EdgePart &wanted : edges)
+                              if (own.has_middle_of(wanted) &&
+                                  wanted.length() < 0.75 * own.length())
                               {
                                 cell->set_refine_flag();
                                 is_changed = true;
@@ -444,7 +423,7 @@ CouplingSpaces::space_with(const std::vector<StraightEdge> &edges) const
 ContactCompliance &CouplingSpaces::of(const Solution<2> &solution, const FrictionAlong &friction)
 {
   begin(solution);
-  std::vector<StraightEdge> edges = wanted_edges(friction);
+  std::vector<EdgePart> edges = wanted_edges(friction);
   const auto known =
       std::find_if(kept.begin(), kept.end(), [&](const auto &one) { return one.first == edges; });
   if (known != kept.end())
@@ -462,7 +441,7 @@ ContactCompliance &CouplingSpaces::of(const Solution<2> &solution, const Frictio
 std::unique_ptr<ContactCompliance> CouplingSpaces::raised(const Solution<2> &solution)
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
-  if (!resolution.is_of_step && std::all_of(faces.begin(), faces.end(), is_on_straight_foundation))
+  if (!resolution.is_of_step && std::all_of(faces.begin(), faces.end(), is_on_foundation))
     return nullptr;
   begin(solution);
   Degrees degrees = solution.displacement_space.degrees();

@@ -550,20 +550,15 @@ try
   if (made->of_pressure)
   {
     result.kind = BoundKind::estimate;
-    if (joints)
-      result.why =
-          solution.scene.has_unilateral_contact()
-              ? "the coupling of friction and pressure is not known where contact is along a "
-                "curve or a direction or around an axis, or meshes of bodies do not match"
-              : "the coupling of friction and pressure is not known where contact is bilateral";
-    else
-    {
-      if (!coulomb)
-        coulomb = std::make_unique<CoulombBounds>();
-      coulomb->set(result, solution, discretisation, made->friction, made->pressure,
-                   *contact.correction, stress_and_oscillation(stress, data),
-                   distance_from_admissible(contact.in_norms, data));
-    }
+    std::optional<MatchingContact> matching;
+    if (!joints)
+      matching.emplace(solution, discretisation, made->friction, made->pressure,
+                       *contact.correction);
+    if (!coulomb)
+      coulomb = std::make_unique<CoulombBounds>();
+    coulomb->set(
+        result, solution, joints ? static_cast<const AdmissibleContact &>(*joints) : *matching,
+        stress_and_oscillation(stress, data), distance_from_admissible(contact.in_norms, data));
     result.radius = result.total;
     set_no_energy(result);
   }

@@ -39,6 +39,24 @@ JointLift::JointLift(const Solution<2> &solution, const Discretisation<2> &discr
       size(solution.u.linfty_norm())
 {
   choose_movers();
+  move();
+  by_face.resize(gaps.size());
+  for (const Mover &mover : movers)
+    for (const Piece &piece : mover.pieces)
+      if (piece.is_joint)
+      {
+        add_gaps(mover, piece);
+        const auto [begin, end] = std::minmax(piece.place.at_begin, piece.place.at_end);
+        by_face[piece.place.face].push_back(
+            {begin, end, piece.place, {{piece.left(0), piece.left(1)}}});
+      }
+  for (std::vector<OnFace> &pieces : by_face)
+    std::sort(pieces.begin(), pieces.end(),
+              [](const OnFace &a, const OnFace &b) { return a.begin < b.begin; });
+}
+
+void JointLift::move()
+{
   set_vertices(NodeFreedom(solution, discretisation.unknowns));
   for (Mover &mover : movers)
   {
@@ -47,12 +65,7 @@ JointLift::JointLift(const Solution<2> &solution, const Discretisation<2> &discr
   }
   set_w();
   for (const Mover &mover : movers)
-  {
     add_rest(mover);
-    for (const Piece &piece : mover.pieces)
-      if (piece.is_joint)
-        add_gaps(mover, piece);
-  }
 }
 
 /** Edges of the softer side of each contact. */
@@ -437,7 +450,7 @@ void JointLift::add_gaps(const Mover &mover, const Piece &piece)
   const JointPiece &place = piece.place;
   const double length = place.end - place.begin;
   const EdgePolynomial u_t = piece.jump[1], left = piece.jump[1] + piece.change[1],
-                       open = piece.jump[0] + piece.change[0];
+                       open = piece.left(0);
   const unsigned int n = std::max(u_t.coefficients().size(), open.coefficients().size());
   std::set<double> cuts{0., 1.};
   const bool has_friction = !face.friction.vanishes();
@@ -463,5 +476,140 @@ void JointLift::add_gaps(const Mover &mover, const Piece &piece)
       work += ds * g * (std::abs(U_t) - std::abs(u_t(t)));
     }
   }
+}
+
+// @sect3{For Coulomb's law}
+//
+const JointLift::OnFace *JointLift::on_face(const unsigned int face, const double s) const
+{
+  for (const OnFace &piece : by_face[face])
+    if (s >= piece.begin && s <= piece.end)
+      return &piece;
+  return nullptr;
+}
+
+namespace
+{
+/** Of a piece, where the slave's coordinate is s. */
+double share_of(const JointPiece &place, const double s)
+{
+  return std::max(0.,
+                  std::min(1., (place.from_slave(s) - place.begin) / (place.end - place.begin)));
+}
+} // namespace
+
+double JointLift::slip(const unsigned int face, const double s) const
+{
+  const OnFace *const piece = on_face(face, s);
+  return piece ? piece->left[1](share_of(piece->place, s)) : 0.;
+}
+
+double JointLift::room(const unsigned int face, const double s) const
+{
+  const OnFace *const piece = on_face(face, s);
+  return piece ? -piece->left[0](share_of(piece->place, s))
+               : std::numeric_limits<double>::infinity();
+}
+
+double JointLift::largest_slip(const unsigned int face) const
+{
+  double result = 0;
+  for (const OnFace &piece : by_face[face])
+    result = std::max(result, piece.left[1].largest());
+  return result;
+}
+
+double JointLift::pressure(const unsigned int face, const double s) const
+{
+  return tractions.pressure(face, s);
+}
+
+double JointLift::direction(const unsigned int face, const double s) const
+{
+  return tractions.direction(face, s);
+}
+
+std::vector<double> JointLift::kinks(const unsigned int face) const
+{
+  std::set<double> result{0., 1.};
+  for (const OnFace &piece : by_face[face])
+    result.insert({piece.begin, piece.end});
+  return {result.begin(), result.end()};
+}
+
+std::vector<std::pair<double, double>> JointLift::points(const unsigned int face) const
+{
+  std::vector<std::pair<double, double>> result;
+  for (const OnFace &piece : by_face[face])
+  {
+    const JointPiece &place = piece.place;
+    const double length = place.end - place.begin;
+    std::vector<double> cuts{0., 1.};
+    if (piece.left[1].largest() > 1e-13 * size)
+      for (const double zero : piece.left[1].zeros())
+        cuts.insert(cuts.end() - 1, zero);
+    for (unsigned int i = 0; i + 1 < cuts.size(); ++i)
+      for (const auto &[own, weight] : tractions.points(
+               place, place.begin + cuts[i] * length, place.begin + cuts[i + 1] * length,
+               std::max(piece.left[0].coefficients().size(), piece.left[1].coefficients().size()) +
+                   3))
+        result.emplace_back(place.on_slave(own), weight * tractions.measure(place, own));
+  }
+  return result;
+}
+
+JointLift::JointLift(const JointLift &of_U, const std::vector<Bump> &bumps)
+    : cells(of_U.cells.size()), solution(of_U.solution), discretisation(of_U.discretisation),
+      tractions(of_U.tractions)
+{
+  const auto has_bump = [&](const Piece &piece)
+  { return piece.is_joint && !bumps[piece.place.face].is_zero(); };
+  std::set<unsigned int> vertices;
+  for (const Bump &bump : bumps)
+    size = std::max(size, bump.largest());
+  for (const Mover &mover : of_U.movers)
+    if (std::any_of(mover.pieces.begin(), mover.pieces.end(), has_bump))
+      vertices.insert(mover.vertices.begin(), mover.vertices.end());
+  for (const Mover &mover : of_U.movers)
+    if (vertices.count(mover.vertices[0]) > 0 || vertices.count(mover.vertices[1]) > 0)
+      movers.push_back(mover);
+  for (Mover &mover : movers)
+    for (Piece &piece : mover.pieces)
+    {
+      if (!piece.is_joint)
+        continue;
+      const ContactFace<2> &face = solution.contact_space.faces()[piece.place.face];
+      piece.is_unilateral = false;
+      piece.modes = {{exact, face.condition->friction || face.condition->is_tied() ? exact : any}};
+      piece.jump = {{polynomial(points_along(piece, 2), solution.tables,
+                                [&](const double t)
+                                {
+                                  const double s =
+                                      piece.place.begin + t * (piece.place.end - piece.place.begin);
+                                  return -bumps[piece.place.face](piece.place.on_slave(s));
+                                }),
+                     EdgePolynomial::constant(0.)}};
+    }
+  move();
+  // At a corner the same vertex may be one that another contact does not move.
+  std::set<const JointEdge *> moving;
+  for (const Mover &mover : of_U.movers)
+    moving.insert(mover.edge);
+  for (const JointEdge &edge : tractions.edges())
+    for (unsigned int end = 0; moving.count(&edge) == 0 && end < 2; ++end)
+      if (const auto moved = at_vertices.find(edge.cell->face(edge.face_no)->vertex_index(end));
+          moved != at_vertices.end() && moved->second.norm_square() > 0. && flaw.empty())
+        flaw = "another contact holds a corner";
+}
+
+double JointLift::lift(const std::vector<Bump> &bumps) const
+{
+  const JointLift X(*this, bumps);
+  if (!X.flaw.empty())
+    return std::numeric_limits<double>::infinity();
+  double square = 0;
+  for (unsigned int cell = 0; cell < X.cells.size(); ++cell)
+    square += std::pow(std::sqrt(std::max(0., X.energies[cell])) + X.cells[cell], 2);
+  return std::sqrt(square);
 }
 } // namespace hpvi

@@ -274,14 +274,19 @@ double JointTractions::limit(const unsigned int k, const double s) const
 }
 
 /** Friction keeps its bound as long as shares are below a half. */
+double JointTractions::direction(const unsigned int k, const double s) const
+{
+  const double lambda = friction.value(k, s);
+  return lambda + (1. - lambda * lambda) * share_of_motions(k, s)[1];
+}
+
 Tensor<1, 2> JointTractions::value(const unsigned int k, const double s) const
 {
   const ContactFace<2> &face = solution.contact_space.faces()[k];
   const ContactFrame<2> frame = face.node_frame(s);
-  const double bound = limit(k, s), share = share_of_motions(k, s)[1],
-               lambda = bound == 0. ? 0. : friction.value(k, s),
-               along = parts[k][1](s) + (face.condition->is_tied() ? unit * share : 0.) +
-                       bound * (lambda + (1. - lambda * lambda) * share);
+  const double bound = limit(k, s),
+               of_tie = face.condition->is_tied() ? unit * share_of_motions(k, s)[1] : 0.,
+               along = parts[k][1](s) + of_tie + (bound == 0. ? 0. : bound * direction(k, s));
   return pressure(k, s) * frame.normal + along * frame.tangent;
 }
 

@@ -26,18 +26,20 @@ bool acts(const ContactFace<2> &face)
   return face.n_multipliers > 0 && !face.friction.vanishes();
 }
 
-/** Do two faces follow each other on one straight line? */
+/** Do two faces meet without a corner? */
 bool follow(const ContactFace<2> &a, const ContactFace<2> &b)
 {
   const double near = 1e-9 * (a.length + b.length);
-  return (a.frame(0.5).normal - b.frame(0.5).normal).norm() < 1e-6 &&
-         std::min({a.point(0.).distance(b.point(0.)), a.point(0.).distance(b.point(1.)),
-                   a.point(1.).distance(b.point(0.)), a.point(1.).distance(b.point(1.))}) < near;
+  for (const double of_a : {0., 1.})
+    for (const double of_b : {0., 1.})
+      if (a.point(of_a).distance(b.point(of_b)) < near)
+        return (a.node_frame(of_a).normal - b.node_frame(of_b).normal).norm() < 1e-6;
+  return false;
 }
 
-/** Runs of faces of Coulomb's law that follow each other on straight lines: [first, end). */
+/** Runs of faces of Coulomb's law that follow each other without a corner: [first, end). */
 std::vector<std::pair<unsigned int, unsigned int>>
-straight_runs(const std::vector<ContactFace<2>> &faces)
+smooth_runs(const std::vector<ContactFace<2>> &faces)
 {
   std::vector<std::pair<unsigned int, unsigned int>> result;
   for (unsigned int k = 0; k < faces.size(); ++k)
@@ -97,17 +99,15 @@ double with_room(const double chi, const double mu, const double u_t, const doub
 }
 } // namespace
 
-SlipDirection slip_direction(const Solution<2> &solution, const AdmissibleFriction<2> &friction,
-                             const ContactCorrection<2> &correction)
+SlipDirection slip_direction(const Solution<2> &solution, const AdmissibleContact &contact)
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
   SlipDirection result(faces.size());
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (knows_pressure(faces[k]) && acts(faces[k]))
-      result[k] = [l = std::array<EdgePolynomial, 2>{{friction.part(k, 0), friction.part(k, 1)}}](
-                      const double s)
-      { return std::max(-1., std::min(1., (1. - s) * l[0](s) + s * l[1](s))); };
-  for (const auto &run : straight_runs(faces))
+      result[k] = [&contact, k](const double s)
+      { return std::max(-1., std::min(1., contact.direction(k, s))); };
+  for (const auto &run : smooth_runs(faces))
     for (unsigned int begin = run.first; begin < run.second;)
     {
       unsigned int end = begin;
@@ -141,13 +141,13 @@ SlipDirection slip_direction(const Solution<2> &solution, const AdmissibleFricti
         {
           const double s = 1. - first_end(faces, k, run);
           next = with_room(next, faces[k].friction_coefficient(faces[k].point(s)),
-                           correction.slip(k)(s), -correction.penetration_along(k)(s));
+                           contact.slip(k, s), contact.room(k, s));
         }
         if (k == begin && !has_before)
         {
           const double s = first_end(faces, k, run);
           value = with_room(value, faces[k].friction_coefficient(faces[k].point(s)),
-                            correction.slip(k)(s), -correction.penetration_along(k)(s));
+                            contact.slip(k, s), contact.room(k, s));
         }
         values.push_back({{value, next}});
         value = next;
@@ -164,17 +164,17 @@ SlipDirection slip_direction(const Solution<2> &solution, const AdmissibleFricti
   return result;
 }
 
-SlipZones slip_zones(const Solution<2> &solution, const ContactCorrection<2> &correction)
+SlipZones slip_zones(const Solution<2> &solution, const AdmissibleContact &contact)
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
   const std::vector<Slip> slips = slips_of(solution);
   SlipZones result{std::vector<bool>(faces.size()), SlipDirection(faces.size()), {}, false};
   double largest = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
-    largest = std::max(largest, correction.slip(k).largest());
+    largest = std::max(largest, contact.largest_slip(k));
   largest = std::max(largest, solution.u.linfty_norm());
   std::string where;
-  for (const auto &[first, end] : straight_runs(faces))
+  for (const auto &[first, end] : smooth_runs(faces))
   {
     const auto holds = [&, first = first, end = end](const unsigned int k)
     { return k >= first && k < end && acts(faces[k]) && slips[k].mode == Slip::nowhere; };
@@ -182,13 +182,14 @@ SlipZones slip_zones(const Solution<2> &solution, const ContactCorrection<2> &co
       return holds(other) || (acts(faces[other]) && sticks_near(faces[other], faces[k], solution));
     };
     std::vector<double> direction(faces.size());
+    const bool is_closed = end - first > 2 && follow(faces[end - 1], faces[first]);
     for (unsigned int k = first; k < end; ++k)
     {
       // At an end of contact there is no neighbour that could slip in its place.
-      const bool before = k == first || holds_near(k - 1, k),
-                 after = k + 1 == end || holds_near(k + 1, k);
+      const bool before = k > first ? holds_near(k - 1, k) : !is_closed || holds_near(end - 1, k),
+                 after = k + 1 < end ? holds_near(k + 1, k) : !is_closed || holds_near(first, k);
       result.sticks[k] = holds(k) && before && after &&
-                         correction.slip(k).largest() <= 1e-11 * largest; // w has taken it away
+                         contact.largest_slip(k) <= 1e-11 * largest; // w has taken it away
       if (acts(faces[k]) && !result.sticks[k])
         direction[k] = slips[k].direction;
     }
@@ -213,9 +214,12 @@ SlipZones slip_zones(const Solution<2> &solution, const ContactCorrection<2> &co
       {
         const unsigned int back = last - 1;
         const std::pair<unsigned int, unsigned int> run{first, end};
-        where += (where.empty() ? "" : ", ") + printable(faces[begin].condition->name) +
-                 " sticks from " + to_string(faces[begin].point(first_end(faces, begin, run))) +
-                 " to " + to_string(faces[back].point(1. - first_end(faces, back, run)));
+        where +=
+            (where.empty() ? "" : ", ") + printable(faces[begin].condition->name) +
+            (is_closed && last - begin == end - first
+                 ? " sticks all around"
+                 : " sticks from " + to_string(faces[begin].point(first_end(faces, begin, run))) +
+                       " to " + to_string(faces[back].point(1. - first_end(faces, back, run))));
         begin = last;
       }
     }

@@ -67,11 +67,6 @@ void attach_curves(const CoarseMesh &coarse, Triangulation<2> &triangulation)
 // @sect3{One edge}
 //
 // Which part of the curve an edge has follows from its cell: each ancestor halves the parameter.
-namespace
-{
-constexpr unsigned int without_degrees = 12; ///< of a mesh that is only looked at
-
-/** @p s of the edge @p face of @p cell, as that of the edge of the coarse cell from which it comes. */
 double on_coarse_edge(Cell cell, const unsigned int face, double s)
 {
   for (; cell->level() > 0; cell = cell->parent())
@@ -83,6 +78,10 @@ double on_coarse_edge(Cell cell, const unsigned int face, double s)
   }
   return s;
 }
+
+namespace
+{
+constexpr unsigned int without_degrees = 12; ///< of a mesh that is only looked at
 
 /** Null where the edge is straight, or has a manifold of another kind. */
 const CurveManifold *manifold_of(const Cell &cell, const unsigned int face)

@@ -248,23 +248,51 @@ std::string reason_of(const std::string &refusal)
   return refusal.substr(refusal.find(": ", from) + 2);
 }
 
+/** Kinds that are tried under Coulomb's law, too. */
+const std::array<std::string, 3> coulomb_geometries{{"curved", "turned", "unmatched"}};
+
 /** All kinds of scenes, in the order in which they take turns. */
 std::vector<std::string> all_kinds()
 {
   std::vector<std::string> result{"rough", "bodies", "unmatched", "curved", "turned"};
   result.insert(result.end(), attack::hidden_kinds.begin(), attack::hidden_kinds.end());
   result.insert(result.end(), {"coulomb", "boxes"});
+  for (const std::string &geometry : coulomb_geometries)
+    result.push_back("coulomb " + geometry);
   return result;
 }
 
 /** Of bodies that are polynomials. */
 bool has_curves(const std::string &kind)
 {
-  return kind == "curved" || kind == "turned";
+  return kind.find("curved") != std::string::npos || kind.find("turned") != std::string::npos;
+}
+
+/** All friction is Coulomb's, and contact may open everywhere. */
+std::string under_coulombs_law(const std::string &text, std::mt19937 &random)
+{
+  std::uniform_real_distribution<double> exponent(-1.5, 0.);
+  std::istringstream in(text);
+  std::ostringstream out;
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("  set Friction bound", 0) == 0)
+      out << "  set Friction coefficient = " << std::pow(10, exponent(random)) << '\n';
+    else if (line == "  set Law = bilateral" || line == "  set Law = tangential")
+      out << "  set Law = unilateral\n";
+    else
+      out << line << '\n';
+  return out.str();
 }
 
 attack::DrawnScene draw(const std::string &kind, std::mt19937 &random)
 {
+  for (const std::string &geometry : coulomb_geometries)
+    if (kind == "coulomb " + geometry)
+    {
+      attack::DrawnScene result = draw(geometry, random);
+      result.text = result.reference = under_coulombs_law(result.text, random);
+      return result;
+    }
   if (has_curves(kind))
   {
     const std::string text =
@@ -495,8 +523,13 @@ int main(int argc, char *argv[])
   bool is_known = true;
   if (argc > 2 && std::string(argv[1]) == "--kind")
   {
-    is_known = std::count(kinds.begin(), kinds.end(), argv[2]) > 0;
-    kinds = {argv[2]};
+    const std::string first_word = argv[2];
+    kinds.erase(std::remove_if(kinds.begin(), kinds.end(),
+                               [&](const std::string &kind) {
+                                 return kind != first_word && kind.rfind(first_word + " ", 0) != 0;
+                               }),
+                kinds.end());
+    is_known = !kinds.empty();
     argc -= 2;
     argv += 2;
   }

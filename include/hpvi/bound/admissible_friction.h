@@ -16,8 +16,8 @@ namespace hpvi
  * stress, patch by patch. z_N itself overshoots g between its Gauss points.
  *
  * On each contact face and for each of its ends a there is a polynomial l_a of traction_degree(),
- * and `l* = sum_a psi_a l_a`. For each vertex a, over the one or two faces that lie on one straight
- * contact boundary there,
+ * and `l* = sum_a psi_a l_a`. For each vertex a, over the one or two faces of one contact boundary that
+ * has no corner there,
  *
  *     sum_f int g psi_a l_a = sum_f int psi_a z_N,   |l_a| <= 1,   l_a continuous at a.
  *

@@ -47,9 +47,8 @@ public:
    * Sets total, kind, coupling, zones and why of @p result, whose total is Tresca's for the same stress. @p solution:
    * under_admissible_limit(); @p A and @p b as in CoulombTerms.
    */
-  void set(ErrorBound &result, const Solution<2> &solution, const Discretisation<2> &discretisation,
-           const AdmissibleFriction<2> &friction, const AdmissiblePressure<2> &pressure,
-           const ContactCorrection<2> &correction, double A, double b);
+  void set(ErrorBound &result, const Solution<2> &solution, const AdmissibleContact &contact,
+           double A, double b);
 
 private:
   CouplingSpaces spaces;

@@ -16,16 +16,16 @@ double half_plane_coupling(const Material &material);
 /**
  * theta for mu_f chi = 1 at the tip of a wedge of @p angle [rad] with contact on one side and nothing on the other, for displacements that
  * hardly vary: `M_nn/(M_tt M_nn - M_tn^2)^{1/2}`, `M = int_0^angle d d'`, d = (cos, sin), t along the side. A lower bound of that of the
- * wedge: 1.2967 at 90 degrees, whatever the material.
+ * wedge: 1.2967 at 90 degrees, whatever the material. Contact is along the outer normal turned by @p turn towards the side.
  */
-double free_wedge_coupling(double angle);
+double free_wedge_coupling(double angle, double turn = 0.);
 
 /**
  * The same where the other side of the wedge is clamped: `N_tt/(N_tt N_nn - N_tn^2)^{1/2}`,
  * `N = int_0^angle e e'/(lambda + 2 mu) + d d'/mu`, e = (-sin, cos). 1.069 at 90 degrees for nu = 0.3 in plane strain, where the half
  * plane has 1.044; orthotropic ones: 1.
  */
-double clamped_wedge_coupling(double angle, const Material &material);
+double clamped_wedge_coupling(double angle, const Material &material, double turn = 0.);
 
 /**
  * How strongly friction couples back: theta = |T|, T v the displacement of least energy with `X_n = mu_f chi v_t`, `X_t = 0` along contact,

@@ -63,27 +63,48 @@ private:
   std::list<Known> kept; ///< the last one first
 };
 
-/** A straight edge of a boundary. */
-struct StraightEdge
+/** An edge of a cell as a part of one of a coarse cell, whose bisections make all others, along curves too. */
+struct EdgePart
 {
-  dealii::types::boundary_id boundary;
-  dealii::Point<2> a, b;
+  EdgePart(dealii::Triangulation<2>::cell_iterator cell, unsigned int face);
+
+  unsigned int coarse_cell, face;
+  double begin, end; ///< in [0,1]
 
   double length() const
   {
-    return a.distance(b);
+    return end - begin;
   }
 
-  /** Where on the edge x is, 0 at a and 1 at b; nothing: not on it, by more than round-off. */
-  std::optional<double> place(const dealii::Point<2> &x) const;
-
-  bool operator==(const StraightEdge &other) const
+  double at(const double s) const ///< of the coarse edge where that of the part is @p s
   {
-    return boundary == other.boundary && a == other.a && b == other.b;
+    return begin + s * length();
+  }
+
+  bool is_of_same_edge(const EdgePart &other) const
+  {
+    return coarse_cell == other.coarse_cell && face == other.face;
+  }
+
+  bool has_middle_of(const EdgePart &other) const
+  {
+    return is_of_same_edge(other) && other.at(0.5) > begin && other.at(0.5) < end;
+  }
+
+  EdgePart half(const bool is_second) const
+  {
+    EdgePart result(*this);
+    (is_second ? result.begin : result.end) = at(0.5);
+    return result;
+  }
+
+  bool operator==(const EdgePart &other) const
+  {
+    return is_of_same_edge(other) && begin == other.begin && end == other.end;
   }
 };
 
-/** mu_f chi along straight contact, by places: what each mesh may ask for. */
+/** mu_f chi along contact, by places: what each mesh may ask for. */
 class FrictionAlong
 {
 public:
@@ -97,8 +118,8 @@ public:
     bool sticks;
   };
 
-  /** Throws NumericalFailure where no face is. */
-  Value operator()(dealii::types::boundary_id boundary, const dealii::Point<2> &x) const;
+  /** At @p s in [0,1] of an edge of any mesh; throws NumericalFailure, with the @p place, where no face is. */
+  Value operator()(const EdgePart &edge, double s, const dealii::Point<2> &place) const;
 
   /** At @p s in [0,1] of a face. */
   Value on_face(unsigned int face, double s) const;
@@ -109,12 +130,12 @@ public:
     double height = 0;   ///< of mu_f chi: largest less smallest value
     double shortest = 0; ///< length of the shortest face there
   };
-  Variation along(const StraightEdge &edge) const;
+  Variation along(const EdgePart &edge) const;
 
   double largest() const; ///< |mu_f chi|
 
-  /** Middles of the faces on which mu_f chi is not zero, and their boundaries. */
-  std::vector<std::pair<dealii::types::boundary_id, dealii::Point<2>>> middles() const;
+  /** Edges of the faces with mu_f chi that is not zero in the middle, and where that is. */
+  std::vector<std::pair<EdgePart, dealii::Point<2>>> acting() const;
 
 private:
   static constexpr unsigned int n_samples = 5; ///< of a face, equidistant, ends included
@@ -122,8 +143,7 @@ private:
   /** A face. */
   struct Part
   {
-    StraightEdge edge;
-    dealii::Point<2> middle;
+    EdgePart edge;
     unsigned int face;
     std::array<double, n_samples> samples;
   };
@@ -164,8 +184,8 @@ public:
 
 private:
   void begin(const Solution<2> &solution);
-  std::vector<StraightEdge> wanted_edges(const FrictionAlong &friction) const;
-  std::shared_ptr<const Spaces<2>> space_with(const std::vector<StraightEdge> &edges) const;
+  std::vector<EdgePart> wanted_edges(const FrictionAlong &friction) const;
+  std::shared_ptr<const Spaces<2>> space_with(const std::vector<EdgePart> &edges) const;
 
   const CouplingResolution resolution;
 
@@ -175,9 +195,17 @@ private:
   const Scene<2> *scene = nullptr;
 
   std::unique_ptr<CondensedElements<2>> elements;
-  std::vector<StraightEdge> coarse_edges; ///< of contact with friction, in the order of cells
-  std::vector<dealii::Point<2>> ends;     ///< of such contact, or where it turns
-  std::list<std::pair<std::vector<StraightEdge>, ContactCompliance>> kept; ///< the last one first
+  /** One of contact with friction. */
+  struct CoarseEdge
+  {
+    EdgePart edge;
+    std::array<bool, 2> ends; ///< does contact end there, or turn?
+  };
+  std::vector<CoarseEdge> coarse_edges;                                ///< in the order of cells
+  std::list<std::pair<std::vector<EdgePart>, ContactCompliance>> kept; ///< the last one first
+
+  static std::vector<CoarseEdge> coupled_edges(const dealii::Triangulation<2> &coarse,
+                                               const Scene<2> &scene);
 };
 
 } // namespace hpvi

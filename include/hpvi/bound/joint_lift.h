@@ -2,6 +2,7 @@
 #ifndef hpvi_joint_lift_h
 #define hpvi_joint_lift_h
 
+#include <hpvi/bound/admissible_contact.h>
 #include <hpvi/bound/face_contact.h>
 #include <hpvi/bound/joint_tractions.h>
 #include <hpvi/bound/node_freedom.h>
@@ -21,7 +22,7 @@ namespace hpvi
  * or stick; elsewhere d is linear, and as large as it takes. w, in V_N, has its values at the nodes of the edges and the least energy in
  * the cells beside them; the rest goes into the cell of each edge by lift_energy().
  */
-class JointLift
+class JointLift : public AdmissibleContact
 {
 public:
   JointLift(const Solution<2> &solution, const Discretisation<2> &discretisation,
@@ -34,6 +35,15 @@ public:
   double work =
       0; ///< -int tau . [d - w] + int g (|U_t| - |u_Nt|), of J(U) - J(u_N + w) what is known
   std::string flaw; ///< why U is not admissible, in words; or empty
+
+  double slip(unsigned int face, double s) const override;
+  double room(unsigned int face, double s) const override; ///< infinite where nothing is opposite
+  double largest_slip(unsigned int face) const override;
+  double pressure(unsigned int face, double s) const override;
+  double direction(unsigned int face, double s) const override;
+  std::vector<double> kinks(unsigned int face) const override;
+  std::vector<std::pair<double, double>> points(unsigned int face) const override;
+  double lift(const std::vector<Bump> &bumps) const override;
 
 private:
   /** Components along normal and tangent of the slave's face. */
@@ -55,7 +65,12 @@ private:
     std::array<Mode, 2> modes{{any, any}};
     std::array<EdgePolynomial, 2> jump;   ///< [u_N] by normal and tangent along the piece, less u_0
     std::array<EdgePolynomial, 2> change; ///< [d] likewise
-    std::array<EdgePolynomial, 2> d;      ///< by its components
+
+    EdgePolynomial left(unsigned int c) const ///< [U]
+    {
+      return c == 1 && modes[1] == exact ? EdgePolynomial::constant(0.) : jump[c] + change[c];
+    }
+    std::array<EdgePolynomial, 2> d;             ///< by its components
     std::array<dealii::Tensor<1, 2>, 2> at_ends; ///< d
   };
   struct Mover
@@ -74,6 +89,18 @@ private:
     bool is_most; ///< less will do
   };
 
+  /** On a face of the slave. */
+  struct OnFace
+  {
+    double begin, end;
+    JointPiece place;
+    std::array<EdgePolynomial, 2> left; ///< [U] by normal and tangent, less u_0
+  };
+
+  /** That X of lift(): of the movers near to bumps, with these in the place of what U asks for. */
+  JointLift(const JointLift &of_U, const std::vector<Bump> &bumps);
+  const OnFace *on_face(unsigned int face, double s) const;
+  void move();
   void choose_movers();
   Mover mover(const JointEdge &edge) const;
   Piece piece(const JointPiece &place, const JointEdge &edge, double sign) const;
@@ -97,6 +124,7 @@ private:
   const std::vector<Slip> slips;
   std::vector<Mover> movers;
   std::map<unsigned int, dealii::Tensor<1, 2>> at_vertices; ///< d
+  std::vector<std::vector<OnFace>> by_face;                 ///< in the order of s
   double size = 0;                                          ///< of displacements
 };
 } // namespace hpvi

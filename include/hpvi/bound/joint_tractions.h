@@ -130,8 +130,9 @@ public:
 
   bool presses(const JointPiece &piece) const; ///< at all points of the multiplier there
 
-  double pressure(unsigned int face, double s) const; ///< its part along the normal
-  double limit(unsigned int face, double s) const;    ///< what friction may be there
+  double pressure(unsigned int face, double s) const;  ///< its part along the normal
+  double limit(unsigned int face, double s) const;     ///< what friction may be there
+  double direction(unsigned int face, double s) const; ///< and its share of that, l*
 
   unsigned int degree(unsigned int face) const; ///< of tau along the slave's face, over g
 

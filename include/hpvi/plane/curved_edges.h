@@ -46,6 +46,9 @@ void set_edge_degrees(dealii::Triangulation<2> &triangulation,
 /** Null where all edges of @p cell are straight. */
 std::shared_ptr<const EdgeBlends> blends_of(const dealii::Triangulation<2>::cell_iterator &cell);
 
+/** @p s of the edge @p face of @p cell, as that of the edge of the coarse cell from which it comes. */
+double on_coarse_edge(dealii::Triangulation<2>::cell_iterator cell, unsigned int face, double s);
+
 /** Where an edge of the mesh lies on one of the coarse mesh, from 0 to 1 along the latter in its own direction. */
 struct EdgePlace
 {
