@@ -185,6 +185,7 @@ double gap_of(const Solution<2> &solution, const AdmissibleContact &contact,
 // Tresca's bound for the same stress is an estimate.
 void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
                         const AdmissibleContact &contact, const double A, const double b)
+try
 {
   result.kind = BoundKind::estimate;
   for (const ContactFace<2> &face : solution.contact_space.faces())
@@ -244,5 +245,9 @@ void CoulombBounds::set(ErrorBound &result, const Solution<2> &solution,
   result.kind = BoundKind::zones;
   result.zones = zones.words;
   result.why.clear();
+}
+catch (const NumericalFailure &failure) // what is left needs no coupling
+{
+  result.why = std::string("the coupling of friction is not known: ") + failure.what();
 }
 } // namespace hpvi

@@ -367,7 +367,8 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
     }
   }
   if (const auto x = jump_of_coefficient(faces, chi, sticks))
-    return "the coefficient of friction jumps at " + to_string(*x) + ", and no coupling is finite";
+    return "mu_f, or the share of it that friction has, jumps at " + to_string(*x) +
+           ", and no coupling is finite";
   return {};
 }
 

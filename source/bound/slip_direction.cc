@@ -37,30 +37,46 @@ bool follow(const ContactFace<2> &a, const ContactFace<2> &b)
   return false;
 }
 
-/** Runs of faces of Coulomb's law that follow each other without a corner: [first, end). */
-std::vector<std::pair<unsigned int, unsigned int>>
-smooth_runs(const std::vector<ContactFace<2>> &faces)
+/** Faces of Coulomb's law that follow each other without a corner, perhaps all around. */
+struct Run
 {
-  std::vector<std::pair<unsigned int, unsigned int>> result;
+  std::vector<unsigned int> faces;
+  bool is_closed = false;
+
+  /** Lets a closed one begin at the first of its faces that is @p wanted. */
+  template <class Wanted>
+  void begin_at(const Wanted &wanted)
+  {
+    if (is_closed)
+      std::rotate(faces.begin(), std::find_if(faces.begin(), faces.end(), wanted), faces.end());
+  }
+};
+
+std::vector<Run> smooth_runs(const std::vector<ContactFace<2>> &faces)
+{
+  std::vector<Run> result;
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (knows_pressure(faces[k]))
     {
-      if (!result.empty() && result.back().second == k && follow(faces[k - 1], faces[k]))
-        ++result.back().second;
-      else
-        result.emplace_back(k, k + 1);
+      if (result.empty() || result.back().faces.back() + 1 != k || !follow(faces[k - 1], faces[k]))
+        result.emplace_back();
+      result.back().faces.push_back(k);
     }
+  for (Run &run : result)
+    run.is_closed =
+        run.faces.size() > 2 && follow(faces[run.faces.back()], faces[run.faces.front()]);
   return result;
 }
 
-/** The end of a face that does not touch the one behind it, 0 or 1: where its run comes from. */
-unsigned int first_end(const std::vector<ContactFace<2>> &faces, const unsigned int face,
-                       const std::pair<unsigned int, unsigned int> &run)
+/** The end of the face at a place of a run that does not touch the one behind it, 0 or 1: where the run comes from. */
+unsigned int first_end(const std::vector<ContactFace<2>> &faces, const unsigned int place,
+                       const Run &run)
 {
-  if (run.second - run.first == 1)
+  if (run.faces.size() == 1)
     return 0;
-  const bool is_last = face + 1 == run.second;
-  const ContactFace<2> &other = faces[is_last ? face - 1 : face + 1], &own = faces[face];
+  const bool is_last = place + 1 == run.faces.size();
+  const ContactFace<2> &other = faces[run.faces[is_last ? place - 1 : place + 1]],
+                       &own = faces[run.faces[place]];
   const auto distance = [&](const unsigned int end)
   {
     return std::min(own.point(end).distance(other.point(0.)),
@@ -107,60 +123,65 @@ SlipDirection slip_direction(const Solution<2> &solution, const AdmissibleContac
     if (knows_pressure(faces[k]) && acts(faces[k]))
       result[k] = [&contact, k](const double s)
       { return std::max(-1., std::min(1., contact.direction(k, s))); };
-  for (const auto &run : smooth_runs(faces))
-    for (unsigned int begin = run.first; begin < run.second;)
+  for (Run &run : smooth_runs(faces))
+  {
+    run.begin_at([&](const unsigned int k) { return bool(result[k]); });
+    const unsigned int n = run.faces.size();
+    for (unsigned int begin = 0; begin < n;)
     {
       unsigned int end = begin;
-      while (end < run.second && !result[end])
+      while (end < n && !result[run.faces[end]])
         ++end;
       if (end == begin)
       {
         ++begin;
         continue;
       }
-      const auto at = [&](const unsigned int face, const bool is_behind)
+      const auto at = [&](const unsigned int place, const bool is_behind)
       {
-        const unsigned int first = first_end(faces, face, run);
-        return result[face](is_behind ? 1. - first : first);
+        const unsigned int first = first_end(faces, place, run);
+        return result[run.faces[place]](is_behind ? 1. - first : first);
       };
-      const bool has_before = begin > run.first, has_after = end < run.second;
-      const double before = has_before  ? at(begin - 1, true)
-                            : has_after ? at(end, false)
-                                        : 0.,
-                   after = has_after ? at(end, false) : before;
-      double length = 0, from = 0;
-      for (unsigned int k = begin; k < end; ++k)
-        length += faces[k].length;
-      double value = before;
-      std::vector<std::array<double, 2>> values;
-      for (unsigned int k = begin; k < end; ++k)
+      const auto with_room_at =
+          [&](const double chi, const unsigned int place, const bool is_behind)
       {
-        from += faces[k].length;
+        const unsigned int k = run.faces[place], first = first_end(faces, place, run);
+        const double s = is_behind ? 1. - first : first;
+        return with_room(chi, faces[k].friction_coefficient(faces[k].point(s)), contact.slip(k, s),
+                         contact.room(k, s));
+      };
+      // A closed run that does not begin with an open face goes on with its first one.
+      const bool has_before = begin > 0, has_after = end < n || (run.is_closed && has_before);
+      const unsigned int next_place = end < n ? end : 0;
+      const double before = has_before  ? at(begin - 1, true)
+                            : has_after ? at(next_place, false)
+                                        : 0.,
+                   after = has_after ? at(next_place, false) : before;
+      double length = 0, from = 0;
+      for (unsigned int place = begin; place < end; ++place)
+        length += faces[run.faces[place]].length;
+      double value = has_before ? before : with_room_at(before, begin, false);
+      std::vector<std::array<double, 2>> values;
+      for (unsigned int place = begin; place < end; ++place)
+      {
+        from += faces[run.faces[place]].length;
         double next = before + (after - before) * from / length;
-        if (k + 1 < end || !has_after)
-        {
-          const double s = 1. - first_end(faces, k, run);
-          next = with_room(next, faces[k].friction_coefficient(faces[k].point(s)),
-                           contact.slip(k, s), contact.room(k, s));
-        }
-        if (k == begin && !has_before)
-        {
-          const double s = first_end(faces, k, run);
-          value = with_room(value, faces[k].friction_coefficient(faces[k].point(s)),
-                            contact.slip(k, s), contact.room(k, s));
-        }
+        if (place + 1 < end || !has_after)
+          next = with_room_at(next, place, true);
         values.push_back({{value, next}});
         value = next;
       }
-      for (unsigned int k = begin; k < end; ++k)
+      for (unsigned int place = begin; place < end; ++place)
       {
-        std::array<double, 2> ends = values[k - begin];
-        if (first_end(faces, k, run) == 1)
+        std::array<double, 2> ends = values[place - begin];
+        if (first_end(faces, place, run) == 1)
           std::swap(ends[0], ends[1]);
-        result[k] = [ends](const double s) { return (1. - s) * ends[0] + s * ends[1]; };
+        result[run.faces[place]] = [ends](const double s)
+        { return (1. - s) * ends[0] + s * ends[1]; };
       }
       begin = end;
     }
+  }
   return result;
 }
 
@@ -174,52 +195,56 @@ SlipZones slip_zones(const Solution<2> &solution, const AdmissibleContact &conta
     largest = std::max(largest, contact.largest_slip(k));
   largest = std::max(largest, solution.u.linfty_norm());
   std::string where;
-  for (const auto &[first, end] : smooth_runs(faces))
+  for (Run &run : smooth_runs(faces))
   {
-    const auto holds = [&, first = first, end = end](const unsigned int k)
-    { return k >= first && k < end && acts(faces[k]) && slips[k].mode == Slip::nowhere; };
+    const unsigned int n = run.faces.size();
+    const auto holds = [&](const unsigned int k)
+    { return acts(faces[k]) && slips[k].mode == Slip::nowhere; };
     const auto holds_near = [&](const unsigned int other, const unsigned int k) {
       return holds(other) || (acts(faces[other]) && sticks_near(faces[other], faces[k], solution));
     };
     std::vector<double> direction(faces.size());
-    const bool is_closed = end - first > 2 && follow(faces[end - 1], faces[first]);
-    for (unsigned int k = first; k < end; ++k)
+    for (unsigned int place = 0; place < n; ++place)
     {
       // At an end of contact there is no neighbour that could slip in its place.
-      const bool before = k > first ? holds_near(k - 1, k) : !is_closed || holds_near(end - 1, k),
-                 after = k + 1 < end ? holds_near(k + 1, k) : !is_closed || holds_near(first, k);
-      result.sticks[k] = holds(k) && before && after &&
+      const unsigned int k = run.faces[place], before = run.faces[(place + n - 1) % n],
+                         after = run.faces[(place + 1) % n];
+      result.sticks[k] = holds(k) && ((place == 0 && !run.is_closed) || holds_near(before, k)) &&
+                         ((place + 1 == n && !run.is_closed) || holds_near(after, k)) &&
                          contact.largest_slip(k) <= 1e-11 * largest; // w has taken it away
       if (acts(faces[k]) && !result.sticks[k])
         direction[k] = slips[k].direction;
     }
+    run.begin_at([&](const unsigned int k) { return result.sticks[k]; });
     // One direction on each part between faces that stick.
-    for (unsigned int begin = first; begin < end;)
+    for (unsigned int begin = 0; begin < n;)
     {
       unsigned int last = begin;
       double found = 0;
-      for (; last < end && !result.sticks[last]; ++last)
-        if (direction[last] != 0.)
+      for (; last < n && !result.sticks[run.faces[last]]; ++last)
+        if (const double own = direction[run.faces[last]]; own != 0.)
         {
-          result.contradicts = result.contradicts || found * direction[last] < 0.;
-          found = direction[last];
+          result.contradicts = result.contradicts || found * own < 0.;
+          found = own;
         }
-      for (unsigned int k = begin; k < last; ++k)
-        result.direction[k] = [sign = found != 0. ? found : 1.](double) { return sign; };
+      for (unsigned int place = begin; place < last; ++place)
+        result.direction[run.faces[place]] = [sign = found != 0. ? found : 1.](double)
+        { return sign; };
       if (last > begin)
         begin = last;
-      for (; last < end && result.sticks[last]; ++last)
-        result.direction[last] = [](double) { return 0.; };
+      for (; last < n && result.sticks[run.faces[last]]; ++last)
+        result.direction[run.faces[last]] = [](double) { return 0.; };
       if (last > begin)
       {
-        const unsigned int back = last - 1;
-        const std::pair<unsigned int, unsigned int> run{first, end};
-        where +=
-            (where.empty() ? "" : ", ") + printable(faces[begin].condition->name) +
-            (is_closed && last - begin == end - first
-                 ? " sticks all around"
-                 : " sticks from " + to_string(faces[begin].point(first_end(faces, begin, run))) +
-                       " to " + to_string(faces[back].point(1. - first_end(faces, back, run))));
+        const auto end_of = [&](const unsigned int place, const bool is_behind)
+        {
+          const unsigned int first = first_end(faces, place, run);
+          return to_string(faces[run.faces[place]].point(is_behind ? 1. - first : first));
+        };
+        where += (where.empty() ? "" : ", ") + printable(faces[run.faces[begin]].condition->name) +
+                 (run.is_closed && last - begin == n
+                      ? " sticks all around"
+                      : " sticks from " + end_of(begin, false) + " to " + end_of(last - 1, true));
         begin = last;
       }
     }
