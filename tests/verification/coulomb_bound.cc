@@ -277,9 +277,10 @@ struct Shipped
 };
 
 /** Along a curve; around an axis; between meshes that do not match. */
-const Shipped held_shoe{
-    "brake-shoe",
-    {{"Boundary inner/Force", ""}, {"Boundary inner/Displacement", "-0.82515; 0.05"}}},
+const Shipped held_shoe{"brake-shoe",
+                        {{"Boundary inner/Force", ""},
+                         {"Boundary inner/Rotation", "0"},
+                         {"Boundary inner/Displacement", "0.01; 0.05"}}},
     turned_sleeve{"sleeve", {{"Boundary right/Contact", "unilateral"}}},
     held_bush{"bush",
               {{"Boundary bush.inner/Shear", ""},
