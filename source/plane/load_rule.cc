@@ -11,10 +11,21 @@ namespace hpvi
 using namespace dealii;
 using namespace coarse_cuts;
 
+// deal.II's CellId holds 30 levels. Here are 48, of which the last is round-off of the coarse cell.
 CellKey cell_key(const Triangulation<2>::cell_iterator &cell, const unsigned int number)
 {
-  const CellId::binary_type id = cell->id().to_binary<2>();
-  return {{id[0], id[1], id[2], id[3], number}};
+  const unsigned int level = cell->level();
+  AssertThrow(level <= 48, ExcMessage("A cell is more than 48 levels below its coarse cell."));
+  CellKey key{{coarse_index(cell), level << 16 | number}};
+  for (Triangulation<2>::cell_iterator part = cell; part->level() > 0; part = part->parent())
+  {
+    unsigned int child = 0;
+    while (part->parent()->child_index(child) != part->index())
+      ++child;
+    const unsigned int above = part->level() - 1;
+    key[2 + above / 16] |= child << 2 * (above % 16);
+  }
+  return key;
 }
 
 template <int dim>

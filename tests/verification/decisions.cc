@@ -9,6 +9,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/grid/grid_generator.h>
 #include <hpvi/driver/marking.h>
+#include <hpvi/plane/load_rule.h>
 
 #include <algorithm>
 #include <numeric>
@@ -453,6 +454,18 @@ TEST(MakeMesh, GradesTowardsAPointByLevels)
         smallest = std::min(smallest, cell->face(0)->measure());
       EXPECT_NEAR(smallest, std::pow(0.5, levels), 1e-12);
     }
+}
+
+/** What steps share of a cell is found by its path; deal.II's CellId ends at 30 levels. */
+TEST(MakeMesh, TellsCellsOfAnyDepthApart)
+{
+  Triangulation<2> mesh;
+  make_mesh(shipped_scene("han-6-12", given::graded("Geometry", "1, 0", "40")), mesh);
+  std::set<CellKey> keys;
+  for (const auto &cell : mesh.cell_iterators())
+    for (const unsigned int number : {2u, 3u})
+      keys.insert(cell_key(cell, number));
+  EXPECT_EQ(keys.size(), 2 * mesh.n_cells());
 }
 
 /** (1.05, 0.9), turned: the box around a turned cell that holds it is not the cell. */
