@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Measurements of doc/space.md, of the slab of prm/slab.prm unless said otherwise: accuracy against CPU time beside GetFEM, the growth of
 iterations and memory up to a million unknowns, speed-up, where the primal path overtakes the reduced one in the plane, what Coulomb's law
-takes, coarse meshes of many cells, pairs of bodies, and the guaranteed bound. Tables go to doc/space, and into doc/space.md between its
+takes, coarse meshes of many cells, pairs of bodies, also beside CalculiX, and the guaranteed bound. Tables go to doc/space, and into doc/space.md between its
 marker comments. Runs that are there already are not repeated; --without million leaves some out; --large measures ten and thirty million
-unknowns instead, of pairs five and nearly thirty, which wants 24 GB that are free; --draw runs nothing, and draws the charts and writes
+unknowns instead, of pairs five and ten, which wants 24 GB that are free; --draw runs nothing, and draws the charts and writes
 the page from the tables of doc/space."""
 import argparse
 import concurrent.futures
@@ -29,8 +29,7 @@ parser.add_argument("--output", default="output/space")
 parser.add_argument("--unknowns", type=int, default=80000, help="the largest of the limits at which runs of the accuracy chart end")
 parser.add_argument("--repeat", type=int, default=3, help="of runs that take a second")
 parser.add_argument("--figures", default="doc/space")
-parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts", "pairs", "bound"])
-parser.add_argument("--pairs", type=float, nargs="*", help="limits of unknowns of the table of pairs; its last meshes have up to five times as many")
+parser.add_argument("--without", nargs="*", default=[], choices=["million", "speedup", "peer", "crossover", "accuracy", "coulomb", "robust", "coarse", "parts", "pairs", "press", "bound"])
 parser.add_argument("--large", action="store_true", help="ten and thirty million unknowns, and the speed-up at millions; nothing else")
 parser.add_argument("--draw", action="store_true", help="draw from the tables that are there")
 options = parser.parse_args()
@@ -263,21 +262,63 @@ PAIRS = [("two spheres", "prm/spheres.prm", {"Contact touch/Friction coefficient
 
 def pairs():
     """A sphere on another one and on a rigid plane under Coulomb's law, on one process and on two: wall seconds and memory of whole runs, each to the first
-    mesh of at least so many unknowns. Rows of other limits stay."""
+    mesh of at least so many unknowns from coarse meshes of so many cells before they are graded. Rows of other runs stay."""
     table = []
-    for limit in options.pairs or ((3e6, 7e6) if options.large else (1e5, 5e5)):
+    for limit, cells in ((3e6, "2, 2, 2"), (3e6, "4, 5, 4")) if options.large else ((1e5, "2, 2, 2"), (5e5, "2, 2, 2")):
         for name, scene, entries in PAIRS:
-            one, two = (run(f"pairs-{name.replace(' ', '-')}-{limit:g}-{n}", scene, n, **entries, **{"Adaptivity/Maximum unknowns": int(limit), "Adaptivity/Maximum steps": 99})[-1]
-                        for n in (1, 2))
-            table.append([int(limit), name, *(int(one[key]) for key in ("dofs_free", "multipliers", "coulomb_fixed_point", "newton_steps", "newton_cg")),
+            entries = {**entries, **{f"{body}/Subdivisions": cells for body in (("Body upper", "Body lower") if "Body upper/Material" in entries else ("Geometry",))}}
+            one, two = (run(f"pairs-{name}-{limit:g}-{cells}-{n}".replace(", ", "").replace(" ", "-"), scene, n, **entries,
+                            **{"Adaptivity/Maximum unknowns": int(limit), "Adaptivity/Maximum steps": 99})[-1] for n in (1, 2))
+            table.append([int(limit), cells, name, *(int(one[key]) for key in ("dofs_free", "multipliers", "coulomb_fixed_point", "newton_steps", "newton_cg")),
                           *(round(row["run_wall"], 1) for row in (one, two)), *(round(row["seconds"], 1) for row in (one, two)),
                           *(round(row["peak_memory"] / 1e9, 2) for row in (one, two)), f"{abs(1 - two['lagrangian'] / one['lagrangian']):.1e}"])
             print(*table[-1], flush=True)
     if (FIGURES / "pairs.csv").exists():
         with (FIGURES / "pairs.csv").open(newline="") as file:
-            table += [row for row in list(csv.reader(file))[1:] if int(row[0]) not in {known[0] for known in table}]
-    write("pairs.csv", ["limit", "bodies", "dofs_free", "multipliers", "tresca_problems", "newton_steps", "newton_cg", "wall_seconds_1", "wall_seconds_2", "step_seconds_1",
-                        "step_seconds_2", "gigabytes_1", "gigabytes_2", "difference"], sorted(table, key=lambda row: (row[1], int(row[0]))))
+            table += [row for row in list(csv.reader(file))[1:] if (int(row[0]), row[1]) not in {(known[0], known[1]) for known in table}]
+    write("pairs.csv", ["limit", "coarse_cells", "bodies", "dofs_free", "multipliers", "tresca_problems", "newton_steps", "newton_cg", "wall_seconds_1", "wall_seconds_2",
+                        "step_seconds_1", "step_seconds_2", "gigabytes_1", "gigabytes_2", "difference"], sorted(table, key=lambda row: (row[2], int(row[3]))))
+    draw_pairs()
+
+
+def draw_pairs():
+    with (FIGURES / "pairs.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    curves = {}
+    for column, what in (("wall_seconds_2", "time of a run [s]"), ("gigabytes_2", "memory [GB]")):
+        for name in sorted({row["bodies"] for row in rows}):
+            points = [(float(row["dofs_free"]), float(row[column])) for row in rows if row["bodies"] == name]
+            curves[f"{what}, {name}"] = (points, -1, (-8, 12) if name == "two spheres" else (-2, -14))
+    chart("pairs.png", "free unknowns [-]", "on two processes", curves)
+
+
+def press():
+    """Two spheres with friction as meshes of second order: the force for a given approach, beside CalculiX. The reference is the last mesh of degree 3."""
+    mesh = OUTPUT / "spheres.msh"
+    mesh.write_text(subprocess.run([sys.executable, "doc/space_pair_peer.py", "--mesh", "4"], check=True, capture_output=True, text=True).stdout)
+    scene = OUTPUT / "press.prm"
+    scene.write_text(pathlib.Path("doc/space/press.prm").read_text())
+
+    def force(name):
+        with (OUTPUT / name / "forces.csv").open(newline="") as file:
+            return {row["step"]: float(row["Fy"]) for row in csv.DictReader(file) if row["name"] == "lower.far"}
+    table = []
+    for degree, limit in ((2, 100000), (3, 300000)):
+        name = f"press-{degree}"
+        rows, forces = run(name, str(scene), **{"Adaptivity/Start degree": degree, "Adaptivity/Method": f"hap{degree}", "Adaptivity/Maximum unknowns": limit}), force(name)
+        seconds = 0.
+        for row in rows:
+            seconds += row["seconds"]
+            table.append([f"hpvi, degree {degree}", "", int(row["dofs_free"]), forces[f"{row['step']:.0f}"], round(seconds, 2), round(row["peak_memory"] / 1e9, 2)])
+    reference = table[-1][3]
+    for n, penalty in ((4, 500), (6, 500), (8, 50), (8, 500), (8, 5000), (10, 500)):
+        result = OUTPUT / f"press-{n}-{penalty}.json"
+        if not result.exists():
+            result.write_text(subprocess.run([sys.executable, "doc/space_pair_peer.py", str(n), str(penalty)], check=True, capture_output=True, text=True).stdout)
+        unknowns, found, seconds, gigabytes = json.loads(result.read_text())
+        table.append(["CalculiX", penalty, unknowns, found, round(seconds, 2), round(gigabytes, 2)])
+    write("press.csv", ["program", "penalty_over_E", "unknowns", "force", "seconds", "gigabytes", "error"],
+          [[*row, f"{abs(row[3] / reference - 1):.2e}"] for row in table])
 
 
 CUBE = {"Geometry/Upper corner": "1, 1, 1", "Geometry/Subdivisions": "2, 2, 2", "Material/Young's modulus": 1, "Boundary left/Traction": "",
@@ -399,6 +440,8 @@ PAGE = {
               "on two processes | gigabytes | on two processes", lambda row: [
                   row["bodies"], count(row["dofs_free"]), count(row["multipliers"]), row["tresca_problems"], row["newton_steps"], row["newton_cg"],
                   *(row[f"{what}_{n}"] for what in ("wall_seconds", "step_seconds", "gigabytes") for n in (1, 2))]),
+    "press": ("program | penalty, of E per mm | unknowns | force, N | its error | seconds | gigabytes", lambda row: [
+        row["program"], row["penalty_over_E"] or "-", count(row["unknowns"]), f"{float(row['force']):.3f}", row["error"], row["seconds"], row["gigabytes"]]),
     "bound": ("scene | free unknowns | bound | over the error | interval of J | J of a finer run | seconds of the bound | of the rest of its step",
               lambda row: [row["scene"], count(row["dofs_free"]), f"{float(row['bound']):.2g}", f"{float(row['over_error']):.2f}",
                            f"{float(row['energy_low']):.5g} to {float(row['energy_high']):.5g}", f"{float(row['energy_fine']):.6g}",
@@ -441,7 +484,8 @@ if options.draw:
     draw_crossover()
     draw_coulomb()
     draw_coarse()
-for part in (large, pairs) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts, pairs, bound):
+    draw_pairs()
+for part in (large, pairs) if options.large else (million, accuracy, crossover, speedup, coulomb, robust, coarse, parts, pairs, press, bound):
     if not options.draw and part.__name__ not in options.without:
         part()
 write_page()
