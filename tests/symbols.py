@@ -3,7 +3,7 @@
 """symbols.py ROOT OBJECTS: what includes do not show, by the symbols of the library's objects.
 
 No room needs a function of a room that comes later in the map; the functions of a class are defined in the room of its header; and these
-arrows, which would lead down, are never drawn. OBJECTS may be those of version 0.2.0, where it finds what it is for: 28 arrows."""
+arrows, which would lead down, are never drawn."""
 import collections
 import pathlib
 import re
@@ -30,13 +30,7 @@ def room_of(path):
     folder = folder[1] if folder else path.relative_to(OBJECTS / "source").parts[0]
     if folder in ORDER:
         return folder
-    return next((room for room in ORDER if (ROOT / "source" / room / folder).is_dir()), None) or room_of_0_2_0(folder)
-
-
-def room_of_0_2_0(folder):
-    """Where most headers of a room of version 0.2.0 have gone."""
-    moved = (ROOT / "source/package/moved_headers.txt").read_text()
-    return collections.Counter(re.findall(rf"^hpvi/{folder}/\S+ hpvi/(\w+)/", moved, re.M)).most_common(1)[0][0]
+    return next((room for room in ORDER if (ROOT / "source" / room / folder).is_dir()), None)
 
 
 def symbols():

@@ -6,8 +6,7 @@ and XML that can be read, no bound below the error, forces in balance, 2 GB at m
 fuzz.py HPVI --seconds SECONDS [--seed SEED] [--server LIBRARY] [--output DIR] [--number N] [--only K]
 
 Input K of a seed is the same whatever came before. A finding goes to DIR/KKKKKK with its scene, made as short as it stays one, and
-the command that repeats it. With the library of server.cc a run costs a tenth of its start. --corpus DIR writes the scenes and a
-dictionary for libFuzzer in the place of all this.
+the command that repeats it. With the library of server.cc a run costs a tenth of its start.
 """
 import argparse
 import collections
@@ -142,20 +141,6 @@ def keep(program, directory, spoilt, wrong, run, command, is_new):
                                       f"{run.errors.decode(errors='replace')}", errors="replace")
 
 
-def write_corpus(directory, library):
-    """Scenes with their meshes, and what they and the entries are made of."""
-    (directory / "corpus").mkdir(parents=True, exist_ok=True)
-    for scene, text in library.texts.items():
-        for path, value in mutator.settings(text):
-            if path.endswith("/File"):
-                text = text.replace(value, "body.msh") + (scene.parent / value).read_text()
-        (directory / "corpus" / scene.name).write_text(text)
-    words = {entry.rpartition("/")[2] for entry in library.entries} | {v for values in library.values.values() for v in values}
-    words |= set(mutator.NUMBERS) | set(mutator.FUNCTIONS) | {"subsection ", "set ", "end\n", "Boundary ", "Material ", "Body ", "Contact ", "Probe ", "Pretension "}
-    escaped = ["".join(c if c.isalnum() or c in " +-*/.,;()<>=^'_" else f"\\x{b:02x}" for b in word.encode() for c in [chr(b)]) for word in sorted(words) if word]
-    (directory / "words").write_text("".join(f'"{word}"\n' for word in escaped if len(word) < 60))
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=pathlib.Path)
@@ -165,12 +150,9 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("output/fuzz"))
     parser.add_argument("--number", type=int, default=10**9)
     parser.add_argument("--only", type=int)
-    parser.add_argument("--corpus", type=pathlib.Path)
     options = parser.parse_args()
     scenes = mutator.scenes_of(ROOT)
     library = mutator.Vocabulary(options.program, scenes)
-    if options.corpus:
-        return write_corpus(options.corpus, library)
     begin, count, statuses, found, slowest, largest = time.monotonic(), 0, collections.Counter(), [], 0., 0
     with tempfile.TemporaryDirectory() as scratch:
         program = Program(options.program.resolve(), options.server, pathlib.Path(scratch))
