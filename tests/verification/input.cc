@@ -101,6 +101,44 @@ TEST(Expressions, AGapIsFiniteEverywhere)
   EXPECT_TRUE(says(message, "is not finite at (0.1, 0): inf;")) << message;
 }
 
+/** The names that deal.II adds to muParser, and muParser's own. */
+TEST(Expressions, KnowEveryFunction)
+{
+  const double x = 0.7;
+  const std::vector<std::pair<std::string, double>> all{
+      {"int(2.6*x)", 2.}, // the nearest
+      {"ceil(x)", 1.},
+      {"floor(2*x)", 1.},
+      {"cot(x)", 1 / std::tan(x)},
+      {"csc(x)", 1 / std::sin(x)},
+      {"sec(x)", 1 / std::cos(x)},
+      {"log(x)", std::log(x)},
+      {"erfc(x)", std::erfc(x)},
+      {"pow(x, 3)", x * x * x},
+      {"if(x < 1, 2, 3)", 2.},
+      {"if (x > 1, 2, 3)", 3.},
+      {"(x > 1) | (x < 1)", 1.},
+      {"(x > 1) & (x < 1)", 0.},
+      {"sin(x) + cos(x) + tan(x)", std::sin(x) + std::cos(x) + std::tan(x)},
+      {"asin(x) + acos(x) + atan(x)", numbers::PI / 2 + std::atan(x)},
+      {"atan2(x, 2)", std::atan2(x, 2)},
+      {"sinh(x) + cosh(x)", std::exp(x)},
+      {"tanh(x)", std::tanh(x)},
+      {"asinh(x) + acosh(1 + x) + atanh(x)", std::asinh(x) + std::acosh(1 + x) + std::atanh(x)},
+      {"exp(ln(x)) + 2^log2(x) + 10^log10(x)", 3 * x},
+      {"sqrt(x)^2 + abs(-x)", 2 * x},
+      {"sign(-x) + rint(x)", 0.},
+      {"min(x, 3, 2) + max(x, 0) + sum(x, x) + avg(x, 3*x)", 6 * x}};
+  for (const auto &[text, value] : all)
+  {
+    const Scene<2> scene = shipped_scene(
+        "han-6-12",
+        {{"Boundary bottom/Contact", "unilateral"},
+         {"Boundary bottom/Gap", "1 + " + std::regex_replace(text, std::regex("\\bx\\b"), "0.7")}});
+    EXPECT_NEAR(scene.boundaries[2].gap_at(Point<2>(1., 0.)), 1 + value, 1e-14) << text;
+  }
+}
+
 TEST(Expressions, RoundOffBelowAZeroBoundIsZero)
 {
   const Scene<2> scene =

@@ -104,58 +104,31 @@ unsigned int number_of_this_thread()
   return own;
 }
 
-/** deal.II's parser has a lock for each value, which threads would hand to one another: each of them has a parser of its own here. */
+/**
+ * A function of a point, and of the pressure there where @p knows_pressure. muParser's variables are one thread's at a time: each thread has
+ * a parser of its own, and threads beyond sixteen share.
+ */
 template <int dim>
-class ParserByThread : public Function<dim>
+class ParsedFunction : public Function<dim>
 {
 public:
-  ParserByThread(const std::string &text, const std::map<std::string, double> &constants)
-      : text(text), constants(constants)
+  ParsedFunction(const std::string &text, const std::map<std::string, double> &constants,
+                 const bool knows_pressure)
+      : text(text), constants(constants), knows_pressure(knows_pressure)
   {
   }
 
   double value(const Point<dim> &x, const unsigned int = 0) const override
   {
-    const Parser &parser =
-        parsers[number_of_this_thread() % parsers.size()]; // two threads may share one
-    std::call_once(parser.is_made,
-                   [&]()
-                   {
-                     parser.function = std::make_unique<FunctionParser<dim>>(1);
-                     parser.function->initialize(FunctionParser<dim>::default_variable_names(),
-                                                 text, constants);
-                   });
-    return parser.function->value(x);
+    return under_pressure(x, 0);
   }
 
-private:
-  struct Parser
-  {
-    mutable std::once_flag is_made;
-    mutable std::unique_ptr<FunctionParser<dim>> function;
-  };
-
-  const std::string text;
-  const std::map<std::string, double> constants;
-  std::array<Parser, 16> parsers;
-};
-
-/** A function of a point and the pressure there, likewise; muParser's variables are one thread's at a time. */
-template <int dim>
-class PressureParser
-{
-public:
-  PressureParser(const std::string &text, const std::map<std::string, double> &constants)
-      : text(text), constants(constants)
-  {
-  }
-
-  double value(const Point<dim> &x, const double p) const
+  double under_pressure(const Point<dim> &x, const double p) const
   {
     const Parser &parser = parsers[number_of_this_thread() % parsers.size()];
     const std::lock_guard<std::mutex> lock(parser.mutex);
     if (!parser.is_made)
-      initialise<dim>(parser.function, text, constants, true, parser.variables);
+      initialise<dim>(parser.function, text, constants, knows_pressure, parser.variables);
     parser.is_made = true;
     for (unsigned int d = 0; d < dim; ++d)
       parser.variables[d] = x[d];
@@ -174,6 +147,7 @@ private:
 
   const std::string text;
   const std::map<std::string, double> constants;
+  const bool knows_pressure;
   std::array<Parser, 16> parsers;
 };
 
@@ -340,7 +314,7 @@ ExpressionReader<dim>::make_function(const std::string &section, const std::stri
   if (is_number(text, value))
     return std::make_shared<Functions::ConstantFunction<dim>>(value);
   const auto function =
-      std::make_shared<const ParserByThread<dim>>(checked(section, name, text), constants);
+      std::make_shared<const ParsedFunction<dim>>(checked(section, name, text), constants, false);
   const Expression result =
       finite<dim>(function, parameters.place(section, name),
                   "\"" + printable(text) + "\"" + with_time(constants), constants.count("t") > 0);
@@ -355,12 +329,12 @@ CoefficientByPressure<dim> ExpressionReader<dim>::make_coefficient(const std::st
                                                                    const std::string &text) const
 {
   const auto function =
-      std::make_shared<const PressureParser<dim>>(checked(section, name, text), constants);
+      std::make_shared<const ParsedFunction<dim>>(checked(section, name, text), constants, true);
   const auto value = [function, place = parameters.place(section, name),
                       shown = "\"" + printable(text) + "\"" + with_time(constants),
                       has_time = constants.count("t") > 0](const Point<dim> &x, const double p)
   {
-    const double result = function->value(x, p);
+    const double result = function->under_pressure(x, p);
     if (!std::isfinite(result))
       throw InputError(message(place, shown + " is not finite under p = " + to_string(p), x, result,
                                "give an expression that is finite for every pressure p >= 0, as "
