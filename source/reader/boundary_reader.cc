@@ -97,8 +97,7 @@ std::vector<Entry> boundary_entries(const std::string &boundary)
       {section, "Contact direction", "", text, "dx; dy or nothing",
        "Direction dx; dy of contact, numbers, out of the body, of whatever length: u_n, T_n and "
        "Gap are those along it and u_t, T_t those along (-dy, dx), per length of the boundary, as "
-       "of an obstacle with another normal than the body's. The error has no guaranteed bound "
-       "then; empty: the outer normal."},
+       "of an obstacle with another normal than the body's; empty: the outer normal."},
       {section, "Friction bound", "", text, "one expression g >= 0 or nothing",
        "Tresca's bound g(x,y) >= 0 [stress], |T_t| <= g, where unilateral contact is open also; "
        "empty or 0: no friction."},

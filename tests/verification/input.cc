@@ -9,6 +9,7 @@
 #include <hpvi/reader/scene_reader.h>
 
 #include <algorithm>
+#include <regex>
 
 namespace
 {
@@ -132,9 +133,9 @@ TEST(Expressions, KnowEveryFunction)
   for (const auto &[text, value] : all)
   {
     const Scene<2> scene = shipped_scene(
-        "han-6-12",
-        {{"Boundary bottom/Contact", "unilateral"},
-         {"Boundary bottom/Gap", "1 + " + std::regex_replace(text, std::regex("\\bx\\b"), "0.7")}});
+        "han-6-12", {{"Boundary bottom/Contact", "unilateral"},
+                     {"Boundary bottom/Gap",
+                      "1 + (" + std::regex_replace(text, std::regex("\\bx\\b"), "0.7") + ")"}});
     EXPECT_NEAR(scene.boundaries[2].gap_at(Point<2>(1., 0.)), 1 + value, 1e-14) << text;
   }
 }
