@@ -119,7 +119,8 @@ double MatchingContact::lift(const std::vector<Bump> &bumps) const
     { return edge_trace(faces[k], direction, solution.displacement_space, solution.tables, X.u); };
     const EdgePolynomial normal = along(faces[k].frame(0.5).normal),
                          tangent = along(faces[k].frame(0.5).tangent);
-    if (faces[k].condition->friction && tangent.largest() > 1e-9 * largest)
+    if ((faces[k].condition->friction || faces[k].condition->is_tied()) &&
+        tangent.largest() > 1e-9 * largest)
       return std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i <= 8; ++i)
       if (std::abs(normal(i / 8.) - bumps[k](i / 8.)) > 1e-9 * largest)

@@ -149,9 +149,13 @@ void Excess::set_inside(const unsigned int k)
   all[k].inside = inside;
 }
 
-/** int pi (u_0 - U_n + M') over contact, and int g (|U_t| - l* U_t) of what friction has without pressure. */
+/**
+ * int pi (u_0 - U_n + M') over contact, and int g (|U_t| - l* U_t) of what friction has without pressure. Where @p assumed, chi', takes the
+ * place of the chi of the stress, also int mu_f (chi' - chi) pi U_t.
+ */
 double gap_of(const Solution<2> &solution, const AdmissibleContact &contact,
-              const std::vector<Bump> &bumps)
+              const std::vector<Bump> &bumps, const SlipDirection &chi,
+              const SlipDirection *assumed)
 {
   const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
   double result = 0;
@@ -166,6 +170,9 @@ double gap_of(const Solution<2> &solution, const AdmissibleContact &contact,
     {
       if (is_unilateral)
         of_face += ds * contact.pressure(k, s) * (bumps[k](s) + contact.room(k, s));
+      if (is_unilateral && assumed && chi[k])
+        of_face += ds * faces[k].friction_coefficient(faces[k].point(s)) *
+                   ((*assumed)[k](s) - chi[k](s)) * contact.pressure(k, s) * contact.slip(k, s);
       if (has_bound)
       {
         const double value = contact.slip(k, s);
@@ -203,21 +210,22 @@ try
       return;
     }
   const CoulombCoupling couple(solution, spaces);
-  const auto bound = [&](const SlipDirection &chi)
+  const SlipDirection chi = slip_direction(solution, contact);
+  const auto bound = [&](const SlipDirection *const assumed)
   {
-    const std::vector<Bump> bumps = Excess(solution, contact, chi).bumps();
+    const std::vector<Bump> bumps = Excess(solution, contact, assumed ? *assumed : chi).bumps();
     const bool is_zero =
         std::all_of(bumps.begin(), bumps.end(), [](const Bump &bump) { return bump.is_zero(); });
-    return coulomb_bound(result.coupling, {A, gap_of(solution, contact, bumps), b,
+    return coulomb_bound(result.coupling, {A, gap_of(solution, contact, bumps, chi, assumed), b,
                                            is_zero ? 0. : contact.lift(bumps)});
   };
-  const SlipDirection chi = slip_direction(solution, contact);
   result.why = couple.unbounded_at(chi);
   if (result.why.empty())
   {
     result.coupling = couple(chi);
-    const double total =
-        result.coupling <= largest_coupling ? bound(chi) : std::numeric_limits<double>::infinity();
+    const double total = result.coupling <= largest_coupling
+                             ? bound(nullptr)
+                             : std::numeric_limits<double>::infinity();
     if (std::isfinite(total))
     {
       result.total = result.radius = total;
@@ -233,7 +241,7 @@ try
     return;
   const double known = std::exchange(result.coupling, couple(zones.direction, zones.sticks));
   const double total = result.coupling <= largest_coupling
-                           ? bound(zones.direction)
+                           ? bound(&zones.direction)
                            : std::numeric_limits<double>::infinity();
   if (!std::isfinite(total))
   {

@@ -227,6 +227,7 @@ void set_flaw(ErrorBound &result, const std::string &why, const double size)
   else if (result.kind != BoundKind::estimate)
   {
     result.kind = BoundKind::estimate;
+    result.zones.clear();
     result.why = why;
     result.total = result.estimate;
     set_no_energy(result);

@@ -40,6 +40,7 @@ JointLift::JointLift(const Solution<2> &solution, const Discretisation<2> &discr
 {
   choose_movers();
   move();
+  require_own_corners(movers, 1e-12 * size);
   by_face.resize(gaps.size());
   for (const Mover &mover : movers)
     for (const Piece &piece : mover.pieces)
@@ -591,14 +592,19 @@ JointLift::JointLift(const JointLift &of_U, const std::vector<Bump> &bumps)
                      EdgePolynomial::constant(0.)}};
     }
   move();
-  // At a corner the same vertex may be one that another contact does not move.
+  require_own_corners(of_U.movers, 0.);
+}
+
+/** At a corner the same vertex may be one that another contact does not move, whose traces nobody looks at. */
+void JointLift::require_own_corners(const std::vector<Mover> &that_move, const double least)
+{
   std::set<const JointEdge *> moving;
-  for (const Mover &mover : of_U.movers)
+  for (const Mover &mover : that_move)
     moving.insert(mover.edge);
   for (const JointEdge &edge : tractions.edges())
     for (unsigned int end = 0; moving.count(&edge) == 0 && end < 2; ++end)
       if (const auto moved = at_vertices.find(edge.cell->face(edge.face_no)->vertex_index(end));
-          moved != at_vertices.end() && moved->second.norm_square() > 0. && flaw.empty())
+          moved != at_vertices.end() && moved->second.norm() > least && flaw.empty())
         flaw = "another contact holds a corner";
 }
 

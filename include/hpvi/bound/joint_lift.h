@@ -117,6 +117,7 @@ private:
   dealii::Tensor<1, 2> rest(const Mover &mover, const Piece &piece, double t) const;
   void add_gaps(const Mover &mover, const Piece &piece);
   void set_flaw(const Piece &piece, double by);
+  void require_own_corners(const std::vector<Mover> &that_move, double least);
 
   const Solution<2> &solution;
   const Discretisation<2> &discretisation;
