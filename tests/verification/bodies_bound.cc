@@ -439,6 +439,32 @@ Scene<2> with_method(Overrides entries, const std::string &method, const unsigne
   return scene_of(entries);
 }
 
+/** A corner that a joint moves, on an edge above a floor that moves nothing: nobody counts what slips and penetrates along it. */
+TEST(JointBound, EndsWhereAnotherContactHoldsACorner)
+{
+  std::string no_bound;
+  run(with_method({{"Body a/Upper corner", "1, 1"},
+                   {"Body a/Subdivisions", "2, 2"},
+                   {"Body b/Lower corner", "1, 0"},
+                   {"Body b/Upper corner", "2, 1"},
+                   {"Body b/Subdivisions", "3, 3"},
+                   {"Body b/Material", "hard"},
+                   {"Material hard/Young's modulus", "1000"},
+                   {"Material hard/Poisson's ratio", "0.3"},
+                   given::joint("joint", "a.right, b.left", "unilateral"),
+                   {"Contact joint/Friction bound", "0.05"},
+                   {"Boundary a.left/Displacement", "0.02; 0"},
+                   {"Boundary b.right/Displacement", "0; 0"},
+                   {"Boundary b.bottom/Contact", "unilateral"},
+                   {"Boundary b.bottom/Friction bound", "0.03"},
+                   {"Boundary b.top/Traction", "0; -0.3"},
+                   {"Solver/Normal contact", "multiplier"},
+                   {"Error/Bound", "true"}},
+                  "hup2", 3),
+      &no_bound);
+  EXPECT_EQ(no_bound, "another contact holds a corner");
+}
+
 /** Two bodies, the first of them glued to springs, and four around a vertex, below springs; the second energy is that of two bodies. */
 TEST(JointBound, HoldsKnownEnergiesBesideSprings)
 {
