@@ -289,7 +289,7 @@ def draw_pairs():
     for column, what in (("wall_seconds_2", "time of a run [s]"), ("gigabytes_2", "memory [GB]")):
         for name in sorted({row["bodies"] for row in rows}):
             points = [(float(row["dofs_free"]), float(row[column])) for row in rows if row["bodies"] == name]
-            curves[f"{what}, {name}"] = (points, 1, (10, -10) if name == "two spheres" else (-10, 10))
+            curves[f"{what}, {name}"] = (points, 1, (10, -10)) if name == "two spheres" else (points, -1, (-10, 12))
     chart("pairs.png", "free unknowns [-]", "on two processes", curves)
 
 
