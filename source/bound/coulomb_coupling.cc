@@ -295,32 +295,15 @@ namespace
 /** A place at which mu_f jumps on a face, or between two that follow each other, seen from the inside of each; nothing: there is none. */
 std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &faces,
                                             const SlipDirection &chi,
-                                            const std::vector<bool> &sticks,
-                                            const EdgesAtVertices &edges, const double near)
+                                            const std::vector<bool> &sticks)
 {
   constexpr double hair = 1e-7;
   struct End
   {
-    unsigned int vertex;
-    Point<2> x;
     Tensor<1, 2> normal;
     double mu;
   };
-  std::vector<End> ends;
-  // Bodies share no vertex, but what is glued moves as one.
-  const auto is_glued = [&edges](const unsigned int vertex)
-  {
-    const auto found = edges.find(vertex);
-    return found != edges.end() &&
-           std::any_of(found->second.begin(), found->second.end(),
-                       [](const BoundaryEdge &edge)
-                       { return edge.condition->pair && !edge.condition->is_unilateral(); });
-  };
-  const auto meet = [&](const End &one, const End &other)
-  {
-    return one.vertex == other.vertex ||
-           (one.x.distance(other.x) < near && is_glued(one.vertex) && is_glued(other.vertex));
-  };
+  std::map<unsigned int, End> at_vertices;
   double largest = 0;
   for (unsigned int k = 0; k < faces.size(); ++k)
     for (const double s : {0., 0.5, 1.})
@@ -340,13 +323,12 @@ std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &f
         return faces[k].point(cut);
     for (unsigned int end = 0; end < 2; ++end)
     {
-      const End own{faces[k].cell->face(faces[k].face_no)->vertex_index(end), faces[k].point(end),
-                    faces[k].node_frame(end).normal, mu(end == 0 ? hair : 1 - hair)};
-      for (const End &known : ends)
-        if (meet(known, own) && (known.normal - own.normal).norm() < 1e-6 &&
-            differ(known.mu, own.mu))
-          return own.x;
-      ends.push_back(own);
+      const End own{faces[k].node_frame(end).normal, mu(end == 0 ? hair : 1 - hair)};
+      const auto [known, is_new] =
+          at_vertices.emplace(faces[k].cell->face(faces[k].face_no)->vertex_index(end), own);
+      if (!is_new && (known->second.normal - own.normal).norm() < 1e-6 &&
+          differ(known->second.mu, own.mu))
+        return faces[k].point(end);
     }
   }
   return std::nullopt;
@@ -404,7 +386,7 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
                ", where the body can slide but not lift, and no coupling is finite";
     }
   }
-  if (const auto x = jump_of_coefficient(faces, chi, sticks, edges, near))
+  if (const auto x = jump_of_coefficient(faces, chi, sticks))
     return "mu_f, or the share of it that friction has, jumps at " + to_string(*x) +
            ", and no coupling is finite";
   return {};

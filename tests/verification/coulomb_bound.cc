@@ -455,6 +455,21 @@ TEST(Coupling, IsInfiniteWhereABodySlidesButDoesNotLift)
   };
   EXPECT_TRUE(says(plate("free; 0", "0"), "slide but not lift"));
   EXPECT_EQ(plate("0; 0", "0"), "");
+  // A body that is glued beside it moves with it.
+  for (const Overrides &floor :
+       {Overrides{}, Overrides{{"Boundary block.bottom/Friction coefficient", "0.02"}}})
+    EXPECT_TRUE(says(of("glued", Overrides{{"Body base/Lower corner", "0, 0"},
+                                           {"Body base/Upper corner", "60, 30"},
+                                           {"Body block/Lower corner", "60, 0"},
+                                           {"Body block/Upper corner", "120, 30"},
+                                           {"Contact glue/Between", "block.left, base.right"},
+                                           {"Boundary base.top/Displacement", "0.05; -0.1"},
+                                           {"Boundary base.bottom/Displacement", ""},
+                                           {"Boundary base.bottom/Contact", "unilateral"},
+                                           {"Boundary base.bottom/Friction coefficient", "0.3"},
+                                           {"Boundary block.bottom/Contact", "unilateral"}} +
+                                     floor),
+                     "slide but not lift"));
 }
 
 /** What a space does not see of friction ends the bound, and is not left out. */
