@@ -113,15 +113,15 @@ void RowTable::set_products()
               : add(Product(), Product());
 }
 
-std::array<std::vector<double>, 2> RowTable::at(const Point<2> &reference) const
+std::array<std::vector<double>, 3> RowTable::at(const Point<2> &reference) const
 {
-  const std::array<Values, 2> along{
-      {Values(k, 2 * reference[0] - 1), Values(k, 2 * reference[1] - 1)}};
-  std::array<std::vector<double>, 2> result;
-  for (unsigned int d = 0; d < 2; ++d)
+  const Values xi(k, 2 * reference[0] - 1), eta(k, 2 * reference[1] - 1);
+  const std::array<const std::vector<double> *, 3> own{{&xi.own, &eta.own, &xi.L}},
+      other{{&eta.L, &xi.L, &eta.L}};
+  std::array<std::vector<double>, 3> result;
+  for (unsigned int d = 0; d < 3; ++d)
     for (const auto &[number, factor] : products[d])
-      result[d].push_back(factor * along[d].own[number / (k + 1)] *
-                          along[1 - d].L[number % (k + 1)]);
+      result[d].push_back(factor * (*own[d])[number / (k + 1)] * (*other[d])[number % (k + 1)]);
   return result;
 }
 
@@ -380,6 +380,49 @@ double RowValues::square(const Stress &stress, const bool is_antisymmetric) cons
   return std::max(0., sum); // round-off
 }
 
+std::array<double, 2> RowValues::squares(const RowShape &shape, const RowFields &fields,
+                                         const Quadrature<2> &rule,
+                                         const std::vector<Components> &sigma) const
+{
+  std::array<double, 2> result{};
+  for (unsigned int q = 0; q < rule.size(); ++q)
+  {
+    const Point<2> &at = rule.point(q), x = shape.map.point(at);
+    const Tensor<2, 2> J = shape.map.jacobian(at) / (2 * shape.h);
+    const double turn = is_axisymmetric ? full_turn(x) : 1.;
+    const std::array<std::vector<double>, 3> fields_at = table.at(at);
+    std::array<std::array<double, 3>, 2> components{};
+    for (unsigned int row = 0; row < 2; ++row)
+      for (unsigned int d = 0; d < n_components(row); ++d)
+        components[row][d] = std::inner_product(fields_at[d].begin(), fields_at[d].end(),
+                                                &fields.fields[row * table.n_fields()], 0.);
+    for (unsigned int c = 0; c < table.corners.size(); ++c)
+    {
+      const auto [xx, yy, xy] =
+          corner_stress(table.k + 1, table.corners[c], 2 * at[0] - 1, 2 * at[1] - 1);
+      const Tensor<2, 2> B = fields.corners[c] * corner_frame(shape, table.corners[c]);
+      for (unsigned int row = 0; row < 2; ++row)
+      {
+        components[row][0] += B[row][0] * xx + B[row][1] * xy;
+        components[row][1] += B[row][0] * xy + B[row][1] * yy;
+      }
+    }
+    const std::array<Frame, 2> both = frames_at(J, x[0] / shape.h);
+    for (unsigned int part = 0; part < n_parts; ++part)
+    {
+      double value = 0;
+      for (unsigned int row = 0; row < 2; ++row)
+        for (unsigned int d = 0; d < n_components(row); ++d)
+          value += both[row][part][d] * components[row][d];
+      for (unsigned int b = part; b + 1 < n_parts; ++b)
+        value -= turn * compliance[b][part] * sigma[q][b];
+      result[part == n_parts - 1] +=
+          4 * rule.weight(q) * determinant(J) * value * value / (part < n_weighted ? turn : 1.);
+    }
+  }
+  return result;
+}
+
 void RowValues::subtract(const unsigned int q, const SymmetricTensor<2, 2> &sigma, const double psi,
                          Stress &stress, const double around) const
 {
@@ -571,6 +614,15 @@ std::array<double, 4> over(const std::array<double, 4> &densities, const double 
     value /= h;
   return result;
 }
+
+/** Of `det DF s` and of sigma(u_N), of bodies of revolution times w, with constant loads; k is above the degrees of u_N and of the map, g. */
+EnergyDegrees degrees_of(const RowTable &table, const RowShape &shape)
+{
+  const unsigned int k = table.k, g = map_degree(shape.map);
+  if (!shape.is_axisymmetric())
+    return {k + g, false};
+  return {std::max(k + 2 * g - 1, 4 * g - 1), true};
+}
 } // namespace
 
 RowElement::RowElement(const RowTable &table, const RowShape &shape)
@@ -578,7 +630,8 @@ RowElement::RowElement(const RowTable &table, const RowShape &shape)
       n_conditions(face_on_axis             ? 5
                    : values.is_axisymmetric ? 1
                                             : 3),
-      scale(over(shape.densities, shape.h)), bubbles(values.bubbles())
+      scale(over(shape.densities, shape.h)),
+      rule(shape.map, degrees_of(table, shape), table.n_gauss), bubbles(values.bubbles())
 {
   add_corners(shape);
   const std::vector<double> H = values.products(corners, scale);

@@ -36,9 +36,6 @@ struct Bilinear
   Tensor<1, 2> slope;
 };
 
-/** Of the rule beside that of energies on curved cells. */
-constexpr unsigned int more_points = 6;
-
 /** Points per direction for energies: all that sees the map converges as the stiffness does. */
 unsigned int energy_points(const CellMap<2> &map, const unsigned int k)
 {
@@ -459,22 +456,30 @@ RowStresses::Hat RowStresses::hat(const Part &part, const unsigned int v, const 
                                    psi.slope[1] * part.box.side_length(1)})};
 }
 
+/** Of the cell's shape functions at points of a part. */
+ShapeTable<2> RowStresses::table_in(const Part &part, const Quadrature<2> &rule) const
+{
+  std::vector<Point<2>> points;
+  for (const Point<2> &point : rule.get_points())
+    points.push_back(part.box.unit_to_real(point));
+  return tabulate<2>(solution.displacement_space.degrees()[part.cell], points, rule.get_weights(),
+                     false);
+}
+
 /** sigma(u_N) at points of a part, without initial strains. */
 std::vector<RowStresses::PointStress> RowStresses::sigma(const Part &part,
                                                          const unsigned int n_gauss) const
 {
+  return cells[part.cell].parts.size() > 1
+             ? sigma_at(part, table_in(part, QGauss<2>(n_gauss)))
+             : sigma_at(part, solution.tables.gradients(
+                                  solution.displacement_space.degrees()[part.cell], n_gauss));
+}
+
+std::vector<RowStresses::PointStress> RowStresses::sigma_at(const Part &part,
+                                                            const ShapeTable<2> &table) const
+{
   const auto &iterator = patches.cells()[part.cell].iterator;
-  const unsigned int p = solution.displacement_space.degrees()[part.cell];
-  std::optional<ShapeTable<2>> own;
-  if (cells[part.cell].parts.size() > 1)
-  {
-    const QGauss<2> gauss(n_gauss);
-    std::vector<Point<2>> points;
-    for (const Point<2> &point : gauss.get_points())
-      points.push_back(part.box.unit_to_real(point));
-    own.emplace(tabulate<2>(p, points, gauss.get_weights(), false));
-  }
-  const ShapeTable<2> &table = own ? *own : solution.tables.gradients(p, n_gauss);
   const CellMap<2> map = map_of<2>(iterator);
   const std::vector<double> derivatives =
       evaluate(table.derivatives, solution.coefficients(part.cell));
@@ -934,24 +939,31 @@ void RowStresses::join_parts()
   }
 }
 
+/** The initial stress at reference coordinates of a part. */
+void RowStresses::subtract_initial(const Part &part, const std::vector<Point<2>> &points,
+                                   std::vector<PointStress> &stress) const
+{
+  if (!solution.scene.has_initial_strain())
+    return;
+  const auto &iterator = patches.cells()[part.cell].iterator;
+  const HookesLaw<2> law(solution.scene.material_of(iterator));
+  for (unsigned int q = 0; q < stress.size(); ++q)
+  {
+    const Point<2> x = part.map.point(points[q]);
+    const Tensor<2, 2> initial = solution.scene.initial_strain_in(iterator, x);
+    const double across = initial_strain_around(solution.scene, iterator, x);
+    stress[q].in_plane -= law.stress(initial, across);
+    if (solution.scene.is_axisymmetric())
+      stress[q].around -= law.hoop_stress(initial, across);
+  }
+}
+
 /** sigma(u_N) at the points of a table, less the initial stress there. */
 std::vector<RowStresses::PointStress> RowStresses::stress_at_points(const Part &part,
                                                                     const RowTable &table) const
 {
   std::vector<PointStress> result = sigma(part, table.n_gauss);
-  if (!solution.scene.has_initial_strain())
-    return result;
-  const auto &iterator = patches.cells()[part.cell].iterator;
-  const HookesLaw<2> law(solution.scene.material_of(iterator));
-  for (unsigned int q = 0; q < result.size(); ++q)
-  {
-    const Point<2> x = part.map.point(table.points[q]);
-    const Tensor<2, 2> initial = solution.scene.initial_strain_in(iterator, x);
-    const double across = initial_strain_around(solution.scene, iterator, x);
-    result[q].in_plane -= law.stress(initial, across);
-    if (solution.scene.is_axisymmetric())
-      result[q].around -= law.hoop_stress(initial, across);
-  }
+  subtract_initial(part, table.points, result);
   return result;
 }
 
@@ -1050,32 +1062,46 @@ RowValues::Stress RowStresses::residual(const Part &part, const std::vector<doub
   return result;
 }
 
-/**
- * Of s - sigma(u_N) and of what is antisymmetric, times theta C_K^2, per h^2. On a curved cell neither is a polynomial over another of known sign: a rule
- * with more points tells what the first one misses, and that counts twice.
- */
+/** As squares(), with the stresses of corners at points that their singularities are integrated by. */
+std::array<double, 2> RowStresses::squares_at_corners(const Part &part,
+                                                      const RowFields &fields) const
+{
+  const RowElement &element = *part.element;
+  const Quadrature<2> rule = corner_quadrature(element.table.corners, element.rule.n_corner);
+  std::vector<PointStress> stress = sigma_at(part, table_in(part, rule));
+  subtract_initial(part, rule.get_points(), stress);
+  std::vector<RowValues::Components> components;
+  for (unsigned int q = 0; q < stress.size(); ++q)
+  {
+    const SymmetricTensor<2, 2> &s = stress[q].in_plane;
+    components.push_back(
+        {{s[0][0], s[1][1], s[0][1], around(part, stress[q], rule.point(q), {1., {}})}});
+  }
+  return element.values.squares(shape_of(part), fields, rule, components);
+}
+
+/** Of s - sigma(u_N) and of what is antisymmetric, times theta C_K^2, per h^2: no less than they are, by EnergyRule. */
 std::array<double, 2> RowStresses::squares(const Part &part,
                                            const std::vector<double> &tractions) const
 {
   const RowElement &element = *part.element;
-  RowFields fields(element.table);
+  const RowTable &table = element.table;
+  RowFields fields(table);
   const RowValues::Stress missed = residual(part, tractions, fields);
   std::array<double, 2> result{
       {element.values.square(missed, false), element.values.square(missed, true)}};
-  if (!part.map.is_curved())
+  if (element.rule.factor == 1.)
     return result;
-  unsigned int corners = 0;
-  for (const unsigned int corner : element.table.corners)
-    corners |= 1u << corner;
-  const RowValues finer(
-      cache.row_table(element.table.k, element.table.n_gauss + more_points, corners),
-      shape_of(part));
-  const RowValues::Stress seen = difference(part, finer, fields);
-  for (const bool is_antisymmetric : {false, true})
+  if (!table.corners.empty())
+    result = squares_at_corners(part, fields);
+  else if (element.rule.n_gauss > table.n_gauss)
   {
-    const double square = finer.square(seen, is_antisymmetric);
-    result[is_antisymmetric] = square + std::abs(square - result[is_antisymmetric]);
+    const RowValues finer(cache.row_table(table.k, element.rule.n_gauss, 0), shape_of(part));
+    const RowValues::Stress seen = difference(part, finer, fields);
+    result = {{finer.square(seen, false), finer.square(seen, true)}};
   }
+  for (double &square : result)
+    square *= element.rule.factor;
   return result;
 }
 
@@ -1108,7 +1134,7 @@ Tensor<2, 2> RowStresses::value(const unsigned int index, const std::vector<doub
   const RowShape shape = shape_of(part);
   RowFields fields(table);
   residual(part, tractions_of_parts(index, tractions)[found - parts.begin()], fields);
-  const std::array<std::vector<double>, 2> fields_at = table.at(reference);
+  const std::array<std::vector<double>, 3> fields_at = table.at(reference);
   Tensor<2, 2> flux;
   for (unsigned int row = 0; row < 2; ++row)
     for (unsigned int d = 0; d < 2; ++d)

@@ -3,6 +3,7 @@
 #define hpvi_row_element_h
 
 #include <hpvi/bound/cell_constants.h>
+#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/traction_energy.h>
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/scene/material.h>
@@ -41,8 +42,8 @@ struct RowTable
     return k * k + 4 * (k + 1);
   }
 
-  /** xi and eta component of all fields at reference coordinates in [0,1]. */
-  std::array<std::vector<double>, 2> at(const dealii::Point<2> &reference) const;
+  /** xi and eta component of all fields, and their divergence, at reference coordinates in [0,1]. */
+  std::array<std::vector<double>, 3> at(const dealii::Point<2> &reference) const;
 
   const unsigned int k, n_gauss;
   std::vector<unsigned int> corners;    ///< marked
@@ -151,6 +152,14 @@ public:
   double square(const Stress &stress,
                 bool is_antisymmetric) const; ///< of the last part, or of the others
 
+  /** Components of sigma, the third around the axis. */
+  using Components = std::array<double, 4>;
+
+  /** Both squares, the last part behind, of @p fields less @p sigma at the points of any rule of the whole cell. */
+  std::array<double, 2> squares(const RowShape &shape, const RowFields &fields,
+                                const dealii::Quadrature<2> &rule,
+                                const std::vector<Components> &sigma) const;
+
   /** Subtracts `psi sigma` at one point, and @p around in the direction around the axis. */
   void subtract(unsigned int q, const dealii::SymmetricTensor<2, 2> &sigma, double psi,
                 Stress &stress, double around = 0.) const;
@@ -226,6 +235,7 @@ public:
   const std::optional<unsigned int> face_on_axis;
   const unsigned int n_conditions;
   const std::array<double, 4> scale; ///< RowShape::densities over h
+  const EnergyRule rule;             ///< for upper bounds of energies
   /** Of balance first; then, in a cell on the axis, those that rows of tractions vanish at their ends on it: face_of_end(). */
   using Conditions = std::array<double, 5>;
   Conditions lengths{}; ///< of the columns of N before they had length 1

@@ -113,7 +113,9 @@ private:
   EquilibrationCache::Signature key(const Part &part) const;
   RowShape shape_of(const Part &part) const;
   Hat hat(const Part &part, unsigned int v, const dealii::Point<2> &at) const;
+  ShapeTable<2> table_in(const Part &part, const dealii::Quadrature<2> &rule) const;
   std::vector<PointStress> sigma(const Part &part, unsigned int n_gauss) const;
+  std::vector<PointStress> sigma_at(const Part &part, const ShapeTable<2> &table) const;
   double around(const Part &part, const PointStress &stress, const dealii::Point<2> &at,
                 const Hat &psi) const;
   unsigned int data_points(const Part &part) const;
@@ -132,8 +134,11 @@ private:
   void set_cell(unsigned int cell);
   void join_parts();
   std::vector<PointStress> stress_at_points(const Part &part, const RowTable &table) const;
+  void subtract_initial(const Part &part, const std::vector<dealii::Point<2>> &points,
+                        std::vector<PointStress> &stress) const;
   RowValues::Stress difference(const Part &part, const RowValues &values,
                                const RowFields &fields) const;
+  std::array<double, 2> squares_at_corners(const Part &part, const RowFields &fields) const;
   std::array<double, 2> squares(const Part &part, const std::vector<double> &tractions) const;
   void set_missed_force(Part &part);
   std::vector<std::vector<double>> tractions_of_parts(unsigned int cell,
