@@ -253,20 +253,27 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     lift_work = joints->work;
   }
   const VertexPatches &patches = stress.patches();
+  std::vector<double> in_contact(oscillation.size());
   for (unsigned int e = 0; e < patches.edges().size(); ++e)
   {
     const StressEdge &edge = patches.edges()[e];
     if (!edge.at_boundary())
       continue;
+    const auto add = [&](const StressEdge::Side &side, const double missed, const bool is_known)
+    {
+      const double of_side = oscillation_of(solution, stress, side, missed);
+      oscillation[side.cell] += of_side;
+      if (!is_known)
+        in_contact[side.cell] += of_side;
+    };
     const unsigned int cell = edge.sides[0].cell, face = edge.sides[0].face;
     const BoundaryCondition<2> &condition = solution.scene.boundaries[edge.boundary];
     if (condition.has_traction() || condition.friction || condition.spring || edge.is_given)
       for (const StressEdge::Side &side : edge.sides) // friction between two bodies acts on both
-        oscillation[side.cell] +=
-            oscillation_of(solution, stress, side, missed_traction(solution, stress, e));
+        add(side, missed_traction(solution, stress, e),
+            !condition.friction && !condition.spring && !edge.is_given);
     if (stress.has_rows())
-      oscillation[cell] +=
-          oscillation_of(solution, stress, edge.sides[0], stress.missed_traction(cell, face));
+      add(edge.sides[0], stress.missed_traction(cell, face), false);
     if (condition.has_displacement() || has_gap(solution, edge))
     {
       const Missed missed = missed_displacement(solution, stress, e);
@@ -305,13 +312,17 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     const Material &material = solution.scene.material_of(iterator);
     if (missed > 0.)
       oscillation[cell] += shape.poincare() * shape.korn() * missed;
-    oscillation[cell] /=
+    const double root =
         std::sqrt(shape.is_on_axis(material) ? material.coercivity(3) : shape.coercivity(material));
+    oscillation[cell] /= root;
+    beside += std::pow(in_contact[cell] / root, 2);
   }
+  beside = std::sqrt(beside);
   for (unsigned int cell = 0; cell < oscillation.size(); ++cell)
     oscillation[cell] += stress.antisymmetry[cell];
   if (solution.scene.has_initial_strain())
     add_initial_strain(solution, stress);
+  beside += unresolved;
   lift = std::sqrt(lift);
 }
 } // namespace hpvi

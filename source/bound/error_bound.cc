@@ -125,7 +125,7 @@ void set_radius(ErrorBound &result, const EquilibratedStress &stress, const Cont
   {
     const double rest = 1 - theta;
     return std::sqrt(rest * (rest * A * A + 2 * gap + rest / (1 - 2 * theta) * b * b)) +
-           theta * result.oscillation;
+           theta * data.beside;
   };
   const auto [theta, least] = boost::math::tools::brent_find_minima(radius, 0., 0.499, 20);
   if (least < result.total)

@@ -176,8 +176,9 @@ Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
                missed_strain = initial_stress_error(scene, z.displacement_space,
                                                     *solution.spaces->loads, z.tables),
                half_way = bound.radius * norm +
-                          bound.theta * (bound.stress * (dual.error + dual.remainder) +
-                                         std::abs(work.value) + work.defect + missed_strain * norm);
+                          bound.theta *
+                              ((bound.stress + bound.oscillation) * (dual.error + dual.remainder) +
+                               std::abs(work.value) + work.defect + missed_strain * norm);
   return {mean.value, std::min(half_way, bound.total * norm) +
                           (bound.data + correction_at_joints(*dual.scene, bound)) * norm +
                           1e-14 * std::abs(mean.value)};

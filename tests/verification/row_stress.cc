@@ -469,7 +469,7 @@ TEST(EnergyRule, KnowsCurvedCellsAndTheAxis)
   for (const CellMap<2> &map : cells)
     for (const bool has_circumference : {false, true})
     {
-      const EnergyRule rule(map, {map_degree(map) + 3, has_circumference}, 0);
+      const EnergyRule rule(map, {2 * map_degree(map) + 1, has_circumference}, 0);
       EXPECT_LT(rule.factor, 1 + 1e-5);
       const auto integral = [&](const unsigned int n)
       {

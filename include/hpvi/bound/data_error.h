@@ -44,6 +44,8 @@ public:
   std::vector<double> oscillation; ///< of loads, by active cell index: to be added to |s - sigma|_K
   std::vector<double> lifts;       ///< |d|_K with the springs of its edges, by active cell index
   double unresolved; ///< what quadrature leaves open of all loads: to be added to the oscillation
+  /** The oscillation of what contact, friction and springs exert, and unresolved: what tractions of s miss of forces; see ErrorBound::radius. */
+  double beside = 0;
   double lift = 0;   ///< |d|_a
   double lift_work = 0;   ///< int (s n - G + k u_N) . d over the boundary [stress length^dim]
   double missed_work = 0; ///< what that may miss, because of

@@ -81,9 +81,9 @@ struct ErrorBound
    *
    *     R^2 = (1 - theta) [(1 - theta) A^2 + 2 gap + (1 - theta)/(1 - 2 theta) b^2].
    *
-   * Where R + theta O is least; s is in equilibrium but for O. Under Coulomb's law 0 and total.
+   * Where R + theta O_c is least, O_c = DataError::beside. Under Coulomb's law 0 and total.
    */
-  double theta = 0, radius = 0; ///< radius: R + theta O
+  double theta = 0, radius = 0; ///< radius: R + theta O_c
 
   /** s n on all edges of the boundary. */
   std::vector<EdgeTraction> tractions;

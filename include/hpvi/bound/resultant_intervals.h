@@ -20,9 +20,9 @@ namespace hpvi
  * for the work of friction where w falls, so that with `F_w = a(u_N, w) - L(w)`, `F_s = int (s n - G) . w` over the edges
  * of the boundary and any theta
  *
- *     |F - (1 - theta) F_w - theta F_s| <= (R + theta O) |w|_a + sum int g |fall| (1 - s/l) ds,
+ *     |F - (1 - theta) F_w - theta F_s| <= (R + theta O_c) |w|_a + sum int g |fall| (1 - s/l) ds,
  *
- * R + theta O = ErrorBound::radius for its theta, and ErrorBound::total for theta = 0. The interval stands about F_w, which is nearer to
+ * R + theta O_c = ErrorBound::radius for its theta, and ErrorBound::total for theta = 0. The interval stands about F_w, which is nearer to
  * F by an order, with theta |F_s - F_w| in its half-width.
  *
  * Where friction knows the pressure p, theta is 0, and with X of TestMotion::pressing() its work on a fall is at most

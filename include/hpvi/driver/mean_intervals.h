@@ -17,10 +17,10 @@ namespace hpvi
  * Guaranteed intervals of the mean displacements of probes. With d of ErrorBound u - u_N - d is a displacement of V, so that for a mean q
  * and any theta
  *
- *     |q(u) - q(u_N) - theta (s - sigma(u_N), eps(z_N))| <= (R + theta O) |z|_a + theta eta |z - z_N|_a + |d|_a |z|_a + |q(d)|,
+ *     |q(u) - q(u_N) - theta (s - sigma(u_N), eps(z_N))| <= (R + theta O_c) |z|_a + theta A |z - z_N|_a + |d|_a |z|_a + |q(d)|,
  *
  * z the solution of a(z, v) = q(v) in V, |z|_a the norm of q. It does not depend on u_N: one run of a few steps finds z_N with its own guaranteed
- * bound, and `|z|_a^2 <= |z_N|_a^2 + bound^2`. R + theta O = ErrorBound::radius for its theta, ErrorBound::total for theta = 0.
+ * bound, and `|z|_a^2 <= |z_N|_a^2 + bound^2`. A <= eta + O, R + theta O_c = ErrorBound::radius for its theta, ErrorBound::total for theta = 0.
  * The interval stands about q(u_N), with theta times the work in its half-width.
  * Probes at whose place d does not vanish have none.
  */
