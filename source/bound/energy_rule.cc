@@ -93,12 +93,18 @@ double reciprocal_error(const CellMap<2> &map, const bool has_circumference, con
 }
 } // namespace
 
+EnergyDegrees degrees_of_work(const CellMap<2> &map, const unsigned int sum,
+                              const bool is_axisymmetric)
+{
+  const unsigned int g = map_degree(map);
+  return {(sum + 1) / 2 + (is_axisymmetric ? 2 * g : g), is_axisymmetric};
+}
+
 EnergyRule::EnergyRule(const CellMap<2> &map, const EnergyDegrees &degrees,
-                       const unsigned int at_least)
+                       const unsigned int at_least, const double enough)
     : n_gauss(at_least), n_corner(0), factor(1.)
 {
   constexpr unsigned int step = 4, most_steps = 3;
-  constexpr double enough = 1e-6;
   const bool divides = !map.is_affine() || degrees.has_circumference;
   n_gauss = std::max(n_gauss, degrees.stress + 1);
   unsigned int m = 0;

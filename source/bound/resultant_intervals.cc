@@ -10,6 +10,7 @@
 // the discrete problem: a corner at which a held and a rubbing boundary meet asks for a $w$ that falls along a shorter
 // edge than $V_N$ has.
 #include <hpvi/bound/resultant_intervals.h>
+#include <hpvi/plane/internal_forces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -92,10 +93,10 @@ void ResultantIntervals::find_goals(const std::vector<Resultant<2>> &forces)
         sides[row.boundary].pieces.empty())
       continue;
     OfBoundary &own = boundaries.emplace_back(OfBoundary{row.boundary, {}});
-    const bool is_contact = row.kind == ForceKind::contact;
+    const bool is_along = row.kind == ForceKind::contact && is_straight(sides[row.boundary]);
     for (const BoundaryMotion motion :
-         {is_contact ? BoundaryMotion::normal : BoundaryMotion::x,
-          is_contact ? BoundaryMotion::tangential : BoundaryMotion::y, BoundaryMotion::moment})
+         {is_along ? BoundaryMotion::normal : BoundaryMotion::x,
+          is_along ? BoundaryMotion::tangential : BoundaryMotion::y, BoundaryMotion::moment})
     {
       if (scene.is_axisymmetric() &&
           (motion == BoundaryMotion::x || motion == BoundaryMotion::moment))
@@ -197,6 +198,12 @@ void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &
 {
   const TestSpace::Residual residual = space->residual(solution);
   const LoadRules<2> &loads = *solution.spaces->loads;
+  const double missed =
+      residual.rule == 0.
+          ? 0.
+          : residual.rule * std::sqrt(internal_forces(scene, solution.displacement_space,
+                                                      solution.tables, solution.u)
+                                          .energy_product);
   for (OfBoundary &boundary : boundaries)
     for (Goal &goal : boundary.goals)
     {
@@ -211,7 +218,7 @@ void ResultantIntervals::measure(const Solution<2> &solution, const ErrorBound &
       }
       goal.rounding = 1e-14 * absolute +
                       loads.difference(Datum::load) * loads.sum().absolute * goal.test.largest() +
-                      space->strain_error() * goal.norm;
+                      (space->strain_error() + missed) * goal.norm;
       const TractionWork work = work_of(goal.test, solution, bound);
       goal.of_stress = work.sum;
       goal.defect = work.defect(bound.imbalance);
@@ -306,6 +313,8 @@ ResultantIntervals::interval(const OfBoundary &boundary,
   if (w.size() == 0)
     return result;
   const double norm = space->norm(w);
+  if (!std::isfinite(norm + result.half_width)) // cells too flat for EnergyRule
+    return std::nullopt;
   const double half_way =
       bound.radius * norm + bound.theta * (std::abs(of_stress - result.centre) + defect);
   result.half_width += std::min(half_way, bound.total * norm);
@@ -320,7 +329,8 @@ void ResultantIntervals::set(const OfBoundary &boundary, const ErrorBound &bound
   { return interval(boundary, sum, bound); };
   if (!scene.is_axisymmetric())
     row.moment[0].interval = of({{Motion::moment, 1.}});
-  if (row.kind != ForceKind::contact)
+  const Side<2> &side = sides[boundary.boundary];
+  if (row.kind != ForceKind::contact || !is_straight(side))
   {
     if (!scene.is_axisymmetric())
       row.force[0].interval = of({{Motion::x, 1.}});
@@ -329,9 +339,6 @@ void ResultantIntervals::set(const OfBoundary &boundary, const ErrorBound &bound
   }
   row.normal.interval = of({{Motion::normal, 1.}});
   row.friction.interval = of({{Motion::tangential, 1.}});
-  const Side<2> &side = sides[boundary.boundary];
-  if (!is_straight(side))
-    return;
   const Tensor<1, 2> n =
       scene.boundaries[boundary.boundary].held_direction(side.normal(side.point(0, 0.5)));
   if (!scene.is_axisymmetric())
@@ -376,10 +383,11 @@ std::string ResultantIntervals::set(const Solution<2> &solution, const ErrorBoun
     find_goals(forces);
   if (boundaries.empty())
     return {};
-  if (!space ||
+  const bool is_curved = scene.geometry.has_curves(); // a body of each step
+  if (!space || is_curved ||
       !scene.pretensions.empty()) // loads of a bolt that is tightened are those of the step
     solve(solution);
-  while (grade(solution, bound))
+  while (!is_curved && grade(solution, bound))
     solve(solution);
   measure(solution, bound);
   for (Resultant<2> &row : forces)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <hpvi/base/thread_pool.h>
+#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/stress_work.h>
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/plane/elastic_system.h>
 #include <hpvi/plane/element_matrices.h>
+#include <hpvi/plane/internal_forces.h>
 #include <hpvi/plane/load_quadrature.h>
 #include <hpvi/results/common_refinement.h>
 
@@ -28,9 +30,13 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
   const unsigned int cell = part.a->active_cell_index(),
                      p = solution.displacement_space.degrees()[cell];
   const CellMap<2> map = map_of<2>(part.a), other = map_of<2>(part.b);
-  unsigned int n_gauss = (p + degree) / 2 + 1 + (map.is_affine() ? 0 : 3);
+  constexpr double enough = 1e-10; // of a number that may be known as well
+  unsigned int n_gauss = (p + degree) / 2 + 1;
   if (scene.is_axisymmetric())
     n_gauss = std::max(n_gauss, stiffness_points(scene, map, (p + degree) / 2));
+  const EnergyRule rule(map, degrees_of_work(map, p + degree, scene.is_axisymmetric()), n_gauss,
+                        enough);
+  n_gauss = rule.n_gauss;
   const ShapeTable<2> &of_u = tables.in(part.in_a, p, n_gauss, solution.tables),
                       &of_w = tables.in(part.in_b, degree, n_gauss, solution.tables);
   const std::vector<double> derivatives = evaluate(of_u.derivatives, solution.coefficients(cell)),
@@ -38,7 +44,8 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
                                          ? evaluate(of_u.values, solution.coefficients(cell))
                                          : std::vector<double>();
   const HookesLaw<2> law(scene.material_of(part.a));
-  WorkOnShapes work{std::vector<double>(2 * of_w.n_shapes), std::vector<double>(2 * of_w.n_shapes)};
+  WorkOnShapes work{std::vector<double>(2 * of_w.n_shapes), std::vector<double>(2 * of_w.n_shapes),
+                    rule.missed()};
   for (unsigned int q = 0; q < of_u.points.size(); ++q)
   {
     const Tensor<2, 2> J = map.jacobian(of_u.points[q]);
@@ -190,11 +197,12 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
   for (const EdgeTraction &edge : bound.tractions)
     edges[{edge.cell->active_cell_index(), edge.face}].push_back(&edge);
   TractionWork tractions;
-  double energy = 0, absolute = 0;
+  double energy = 0, absolute = 0, rule = 0;
   for (const auto &[a, in_a, b, in_b, work] : stress_on_parts(
            solution, z.displacement_space.triangulation(), z.displacement_space.degrees(), tables))
   {
     const std::vector<double> coefficients = z.coefficients(b->active_cell_index());
+    rule = std::max(rule, work.rule);
     for (unsigned int i = 0; i < coefficients.size(); ++i)
     {
       energy += work.sum[i] * coefficients[i];
@@ -213,6 +221,13 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
     work += loads[i] * z.u[i];
     absolute += std::abs(loads[i] * z.u[i]);
   }
-  return {work + tractions.sum - energy, 1e-14 * absolute + tractions.defect(bound.imbalance)};
+  const auto norm = [](const Solution<2> &of)
+  {
+    return std::sqrt(
+        internal_forces(of.scene, of.displacement_space, of.tables, of.u).energy_product);
+  };
+  const double missed = rule > 0 ? rule * norm(solution) * norm(z) : 0.;
+  return {work + tractions.sum - energy,
+          missed + 1e-14 * absolute + tractions.defect(bound.imbalance)};
 }
 } // namespace hpvi

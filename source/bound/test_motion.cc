@@ -79,10 +79,19 @@ TestMotion::TestMotion(const Scene<2> &scene, const std::vector<Side<2>> &sides,
     : original(scene), sides(sides), goal(boundary),
       body(scene.geometry.body_of_side(scene.boundaries[boundary].side)), resultant(resultant)
 {
+  for (const Side<2> &side : sides)
+    turns.push_back(!side.pieces.empty() && !is_straight(side));
+  const std::string &name = scene.boundaries[goal].name;
+  const bool is_along =
+      resultant == BoundaryMotion::normal || resultant == BoundaryMotion::tangential;
+  if (turns[goal] && is_along)
+    why_not = "forces along the normal of " + name + ", which has more than one";
+  else if (turns[goal] && resultant == BoundaryMotion::moment && scene.geometry.has_curves())
+    why_not = "the moment of " + name + ", which is curved";
   for (const BoundaryCondition<2> &other : scene.boundaries)
-    if (!sides[other.id].pieces.empty() && !is_straight(sides[other.id]) &&
-        (other.id == goal || other.has_contact() || other.symmetry))
-      why_not = "forces on bodies of which " + other.name + " has more than one normal";
+    if (turns[other.id] && other.has_traction() &&
+        (other.has_contact() || other.symmetry || other.spring))
+      why_not = "forces on bodies of which " + other.name + " has loads and more than one normal";
   for (const Meeting &meeting : meetings())
     if (why_not.empty())
       meet(meeting);
@@ -149,8 +158,11 @@ std::vector<TestMotion::Row> TestMotion::rows(const unsigned int boundary, const
 {
   std::vector<Row> result;
   const Tensor<1, 2> wanted = motion(boundary, x);
-  for (const TractionAlong &part :
-       tractions_of(original.boundaries[boundary], sides[boundary].normal(x)))
+  const BoundaryCondition<2> &condition = original.boundaries[boundary];
+  std::array<TractionAlong, 2> parts = tractions_of(condition, sides[boundary].normal(x));
+  if (turns[boundary] && (condition.has_contact() || condition.symmetry))
+    parts = {{{Point<2>(1, 0), TractionKind::reaction}, {Point<2>(0, 1), TractionKind::reaction}}};
+  for (const TractionAlong &part : parts)
     result.push_back({boundary, part.direction, part.direction * wanted, part.kind});
   return result;
 }
@@ -252,8 +264,8 @@ double TestMotion::Fall::work(const Scene<2> &scene, const double l) const
 }
 
 TestMotion::TestMotion(const TestMotion &other, const Fall &fall)
-    : original(other.original), sides(other.sides), goal(fall.boundary), body(other.body),
-      resultant(BoundaryMotion::none), all_falls({fall})
+    : original(other.original), sides(other.sides), turns(other.turns), goal(fall.boundary),
+      body(other.body), resultant(BoundaryMotion::none), all_falls({fall})
 {
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/stress_work.h>
 #include <hpvi/bound/test_space.h>
 #include <hpvi/plane/elastic_system.h>
@@ -21,10 +22,13 @@ namespace
 /** Least energies hang on corners of the body, where cells count and degrees do not. */
 constexpr unsigned int degree_of_w = 2, few_cells = 15;
 
-/** The coarse mesh, bisected until it has some cells, and further at @p points. */
-std::shared_ptr<const Triangulation<2>> bisected_mesh(const Scene<2> &scene,
-                                                      const std::vector<GradedPoint> &points)
+/** The coarse mesh, bisected until it has some cells, and further at @p points; that of u_N where edges are curved. */
+std::shared_ptr<const Triangulation<2>> mesh_of_w(const Solution<2> &solution,
+                                                  const std::vector<GradedPoint> &points)
 {
+  const Scene<2> &scene = solution.scene;
+  if (scene.geometry.has_curves())
+    return {solution.spaces, &solution.displacement_space.triangulation()};
   const auto mesh = std::make_shared<Triangulation<2>>();
   make_mesh(scene, *mesh);
   while (mesh->n_active_cells() < few_cells)
@@ -65,7 +69,7 @@ Scene<2> free_body(const Scene<2> &scene)
 
 TestSpace::TestSpace(const Solution<2> &solution, const std::vector<GradedPoint> &points,
                      std::shared_ptr<PartTables> tables)
-    : scene(solution.scene), lender(solution.spaces), mesh(bisected_mesh(scene, points)),
+    : scene(solution.scene), lender(solution.spaces), mesh(mesh_of_w(solution, points)),
       degrees(mesh->n_active_cells(), degree_of_w),
       space(free_body(scene), *mesh, degrees, *lender->tables, lender->loads.get()),
       applied(body_loads(scene, space, *lender->tables, *lender->loads)),
@@ -155,17 +159,22 @@ double TestSpace::norm(const Vector<double> &w) const
     square += w[i] * Kw[i];
     scale += w[i] * K.diag_element(i) * w[i];
   }
-  return std::sqrt(square < nearly_rigid * scale ? square_by_strains(w) : square);
+  const bool is_curved = scene.geometry.has_curves(); // K is no more than near then
+  return std::sqrt(is_curved || square < nearly_rigid * scale ? square_by_strains(w) : square);
 }
 
 double TestSpace::square_by_strains(const Vector<double> &w) const
 {
   constexpr unsigned int n_gauss = 8; // of what is small: more than enough
   const LocalNumbering &numbering = lender->tables->numbering(degree_of_w);
-  const ShapeTable<2> &table = lender->tables->gradients(degree_of_w, n_gauss);
   double result = 0;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
   {
+    const CellMap<2> map = map_of<2>(cell);
+    const EnergyRule rule(map, degrees_of_work(map, 2 * degree_of_w, scene.is_axisymmetric()),
+                          n_gauss);
+    const ShapeTable<2> &table = lender->tables->gradients(degree_of_w, rule.n_gauss);
+    double square = 0;
     const auto dofs = space.cell_dofs(cell->active_cell_index());
     std::vector<double> local(dofs.size());
     for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -173,7 +182,6 @@ double TestSpace::square_by_strains(const Vector<double> &w) const
     const std::vector<double> derivatives = evaluate(table.derivatives, local),
                               values = scene.is_axisymmetric() ? evaluate(table.values, local)
                                                                : std::vector<double>();
-    const CellMap<2> map = map_of<2>(cell);
     const HookesLaw<2> law(scene.material_of(cell));
     for (unsigned int q = 0; q < table.points.size(); ++q)
     {
@@ -181,10 +189,11 @@ double TestSpace::square_by_strains(const Vector<double> &w) const
       const SymmetricTensor<2, 2> strain = symmetrize(physical_gradient<2>(
           derivatives, q * table.rows_per_point, table.derivatives.m(), invert(J)));
       const Point<2> x = map.point(table.points[q]);
-      result +=
+      square +=
           table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
           law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
     }
+    result += rule.factor * square;
   }
   return result;
 }
@@ -397,6 +406,7 @@ TestSpace::Residual TestSpace::residual(const Solution<2> &solution) const
       result.sum[dofs[i]] += part.work.sum[shape];
       result.absolute[dofs[i]] += part.work.absolute[shape];
     }
+    result.rule = std::max(result.rule, part.work.rule);
   }
   for (types::global_dof_index i = 0; i < applied.size(); ++i)
   {

@@ -583,15 +583,11 @@ void AdaptiveSolver<dim>::add_bound(StepReport<dim> &step)
 {
   StageTimer timer(backend->times.recover);
   take_bound(known_bound(), step, history.back());
-  // Forces and means need displacements on a mesh of their own, and the body of a step is that of its degrees.
-  const bool is_curved = scene.geometry.has_curves(),
-             is_history = step.bound && step.bound->kind == BoundKind::history,
-             is_bounded = step.bound && scene.intervals && !is_curved && !is_history;
+  const bool is_history = step.bound && step.bound->kind == BoundKind::history,
+             is_bounded = step.bound && scene.intervals && !is_history;
   step.no_intervals = is_bounded   ? backend->bound_forces(*step.bound, step.forces)
                       : is_history ? "slip counts from the load step before"
-                      : step.bound && is_curved
-                          ? "curved edges change with the degrees of their cells"
-                          : step.no_bound;
+                                   : step.no_bound;
   if (is_bounded)
     mean_intervals.set(step);
   compare_claims(step);

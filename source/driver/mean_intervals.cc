@@ -194,7 +194,9 @@ void MeanIntervals<2>::set(StepReport<2> &step)
     if (!probe.is_mean())
       continue;
     std::string flaw;
-    if (scene.is_axisymmetric() && probe.kind == ProbeKind::disc)
+    if (scene.geometry.has_curves()) // displacements of another mesh are those of another body
+      flaw = "curved edges change with the degrees of their cells";
+    else if (scene.is_axisymmetric() && probe.kind == ProbeKind::disc)
       flaw = "a mean over a ring has the weight of the radius";
     for (unsigned int c = 0; c < 2 && flaw.empty(); ++c)
     {

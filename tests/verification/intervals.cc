@@ -111,7 +111,7 @@ TEST(Intervals, HaveTheRadiusOfTheTheorem)
   for (const auto &[file, friction] : std::vector<std::pair<std::string, Overrides>>{
            {"han-6-12", {}},
            {"han-6-12-unilateral", {}},
-           {"han-6-12", {{"Boundary bottom/Friction bound", "0.2 + 0.1*sin(3*x)"}}}})
+           {"han-6-12", {{"Boundary bottom/Friction bound", "4.5 + 2*sin(3*x)"}}}})
     AdaptiveSolver<2>(read_scene<2>("prm/" + file + ".prm",
                                     with({{"Adaptivity/Maximum steps", "5"},
                                           {"Boundary left/Traction", "1.5*(5 - y)*sin(y); -0.75"}},

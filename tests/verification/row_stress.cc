@@ -704,7 +704,6 @@ TEST(RowStresses, BoundTheErrorOfLamesRing)
         EXPECT_GE(step.bound->total, error) << step.number;
         EXPECT_LE(step.bound->total, most[step.number - 1] * error) << step.number;
         EXPECT_LE(step.bound->imbalance, 1e-13);
-        EXPECT_EQ(step.no_intervals, "curved edges change with the degrees of their cells");
       });
 }
 

@@ -46,7 +46,7 @@ public:
   double unresolved; ///< what quadrature leaves open of all loads: to be added to the oscillation
   /** The oscillation of what contact, friction and springs exert, and unresolved: what tractions of s miss of forces; see ErrorBound::radius. */
   double beside = 0;
-  double lift = 0;   ///< |d|_a
+  double lift = 0;        ///< |d|_a
   double lift_work = 0;   ///< int (s n - G + k u_N) . d over the boundary [stress length^dim]
   double missed_work = 0; ///< what that may miss, because of
   double missed_data =

@@ -15,6 +15,9 @@ struct EnergyDegrees
   bool has_circumference; ///< is w = 2 pi x among what the energy is divided by?
 };
 
+/** Of `det DF (sigma, eps)` of two displacements whose degrees sum to @p sum, as if it were a square. */
+EnergyDegrees degrees_of_work(const CellMap<2> &map, unsigned int sum, bool is_axisymmetric);
+
 /**
  * A rule of Gauss for energies `int P/D` of a cell, P a square of polynomials, D = det DF or x det DF. With a polynomial r of degree m and
  * `|1 - r D| <= delta` on the cell
@@ -26,8 +29,15 @@ struct EnergyDegrees
  */
 struct EnergyRule
 {
-  /** With at least so many points; more until the factor is 1 + 1e-6 or a dozen more do not lead there. */
-  EnergyRule(const CellMap<2> &map, const EnergyDegrees &degrees, unsigned int n_gauss);
+  /** With at least so many points; more until the factor is 1 + @p enough or a dozen more do not lead there. */
+  EnergyRule(const CellMap<2> &map, const EnergyDegrees &degrees, unsigned int n_gauss,
+             double enough = 1e-6);
+
+  /** Of int P/D where P is no square, what the rule may miss over int |P|/D: twice delta/(1 - delta). */
+  double missed() const
+  {
+    return factor - 1;
+  }
 
   unsigned int n_gauss;  ///< in each direction
   unsigned int n_corner; ///< of corner_quadrature(), for squares with corner_stress() among them

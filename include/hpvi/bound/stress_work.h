@@ -15,6 +15,7 @@ namespace hpvi
 struct WorkOnShapes
 {
   std::vector<double> sum, absolute;
+  double rule = 0; ///< EnergyRule::missed() of the cell
 };
 
 /**

@@ -41,7 +41,8 @@ enum class TractionKind
  * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. What a pressure does there is
  * known where contact is open (open_contact.h), and that of friction by pressure by pressing(). Reactions bear no fall.
  *
- * In the plane, on straight sides.
+ * In the plane. On a side of several normals that contact, symmetry or springs hold w is R along x and y, or 0, and bears no fall; R is constant
+ * where it is curved.
  */
 class TestMotion
 {
@@ -102,6 +103,7 @@ private:
 
   const Scene<2> &original;
   const std::vector<Side<2>> &sides;
+  std::vector<bool> turns; ///< by boundary: has it several normals?
   const unsigned int goal, body;
   const BoundaryMotion resultant;
   std::string why_not;

@@ -26,7 +26,7 @@ struct GradedPoint
 /**
  * Continuous displacements w on a mesh of their own, which descends from the coarse mesh of a scene: fine enough that least
  * energies are near, and bisected again and again at some points, so that w can fall there along a short edge. It does not know
- * the mesh of any u_N, and serves all steps.
+ * the mesh of any u_N, and serves all steps. Of a body with curves, which each step meshes anew, it has the mesh of that step and serves it alone.
  */
 class TestSpace
 {
@@ -54,6 +54,7 @@ public:
   struct Residual
   {
     dealii::Vector<double> sum, absolute;
+    double rule = 0; ///< what rules of Gauss miss of the sum with w, over |u_N|_a |w|_a
   };
   Residual residual(const Solution<2> &solution) const;
 
