@@ -291,6 +291,7 @@ ResultantIntervals::interval(const OfBoundary &boundary,
 {
   Interval result;
   double of_stress = 0, defect = 0;
+  bool is_by_stress = true; // F_s takes edges for straight
   Vector<double> w;
   for (const auto &[motion, factor] : sum)
   {
@@ -304,6 +305,7 @@ ResultantIntervals::interval(const OfBoundary &boundary,
     result.centre += factor * goal->centre;
     result.half_width += std::abs(factor) * (goal->friction + goal->pressed + goal->lifted +
                                              goal->pressure + goal->rounding);
+    is_by_stress = is_by_stress && !goal->test.turns_along_curve();
     of_stress += factor * goal->of_stress;
     defect += std::abs(factor) * goal->defect;
     if (w.size() == 0)
@@ -317,7 +319,7 @@ ResultantIntervals::interval(const OfBoundary &boundary,
     return std::nullopt;
   const double half_way =
       bound.radius * norm + bound.theta * (std::abs(of_stress - result.centre) + defect);
-  result.half_width += std::min(half_way, bound.total * norm);
+  result.half_width += is_by_stress ? std::min(half_way, bound.total * norm) : bound.total * norm;
   return result;
 }
 

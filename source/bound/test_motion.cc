@@ -86,8 +86,6 @@ TestMotion::TestMotion(const Scene<2> &scene, const std::vector<Side<2>> &sides,
       resultant == BoundaryMotion::normal || resultant == BoundaryMotion::tangential;
   if (turns[goal] && is_along)
     why_not = "forces along the normal of " + name + ", which has more than one";
-  else if (turns[goal] && resultant == BoundaryMotion::moment && scene.geometry.has_curves())
-    why_not = "the moment of " + name + ", which is curved";
   for (const BoundaryCondition<2> &other : scene.boundaries)
     if (turns[other.id] && other.has_traction() &&
         (other.has_contact() || other.symmetry || other.spring))
@@ -127,6 +125,11 @@ double TestMotion::largest() const
     for (const auto &end : piece)
       result = std::max(result, motion(goal, end).norm());
   return result;
+}
+
+bool TestMotion::turns_along_curve() const
+{
+  return turns[goal] && resultant == BoundaryMotion::moment && original.geometry.has_curves();
 }
 
 Tensor<1, 2> TestMotion::motion(const unsigned int boundary, const Point<2> &x) const

@@ -20,7 +20,7 @@ using namespace dealii;
 namespace
 {
 /** Least energies hang on corners of the body, where cells count and degrees do not. */
-constexpr unsigned int degree_of_w = 2, few_cells = 15;
+constexpr unsigned int least_degree = 2, few_cells = 15;
 
 /** The coarse mesh, bisected until it has some cells, and further at @p points; that of u_N where edges are curved. */
 std::shared_ptr<const Triangulation<2>> mesh_of_w(const Solution<2> &solution,
@@ -52,6 +52,15 @@ std::shared_ptr<const Triangulation<2>> mesh_of_w(const Solution<2> &solution,
   return mesh;
 }
 
+/** On a curved cell a rotation has the degree of the map. */
+Degrees degrees_of_w(const Triangulation<2> &mesh)
+{
+  Degrees result;
+  for (const auto &cell : mesh.active_cell_iterators())
+    result.push_back(std::max(least_degree, map_degree(map_of<2>(cell))));
+  return result;
+}
+
 /** A body that nothing holds. */
 Scene<2> free_body(const Scene<2> &scene)
 {
@@ -70,7 +79,7 @@ Scene<2> free_body(const Scene<2> &scene)
 TestSpace::TestSpace(const Solution<2> &solution, const std::vector<GradedPoint> &points,
                      std::shared_ptr<PartTables> tables)
     : scene(solution.scene), lender(solution.spaces), mesh(mesh_of_w(solution, points)),
-      degrees(mesh->n_active_cells(), degree_of_w),
+      degrees(degrees_of_w(*mesh)),
       space(free_body(scene), *mesh, degrees, *lender->tables, lender->loads.get()),
       applied(body_loads(scene, space, *lender->tables, *lender->loads)),
       missed_strain(initial_stress_error(scene, space, *lender->loads, *lender->tables)),
@@ -89,14 +98,16 @@ void TestSpace::find_nodes()
       if (!cell->at_boundary(f))
         continue;
       const CellMap<2> map = map_of<2>(cell);
+      const unsigned int p = degrees[cell->active_cell_index()];
       const auto dofs = space.cell_dofs(cell->active_cell_index());
-      const auto &on_edge = lender->tables->numbering(degree_of_w).edge[f];
-      for (unsigned int k = 0; k <= degree_of_w; ++k)
+      const auto &on_edge = lender->tables->numbering(p).edge[f];
+      edges.push_back(
+          {cell->face(f)->boundary_id(), {{cell->face(f)->vertex(0), cell->face(f)->vertex(1)}}});
+      for (unsigned int k = 0; k <= p; ++k)
       {
         Node &node = found[dofs[on_edge[k]]];
-        node.dofs = {{dofs[on_edge[k]], dofs[on_edge[degree_of_w + 1 + k]]}};
-        node.x =
-            map.point(point_on_face<2>(f, lender->tables->gauss_lobatto(degree_of_w + 1).point(k)));
+        node.dofs = {{dofs[on_edge[k]], dofs[on_edge[p + 1 + k]]}};
+        node.x = map.point(point_on_face<2>(f, lender->tables->gauss_lobatto(p + 1).point(k)));
         node.boundaries.push_back(cell->face(f)->boundary_id());
       }
     }
@@ -134,13 +145,13 @@ void TestSpace::assemble()
       [&](const auto &cell, const auto &dofs)
       {
         const CellMap<2> map = map_of<2>(cell);
+        const unsigned int p = degrees[cell->active_cell_index()];
         std::shared_ptr<const FullMatrix<double>> own;
-        auto &matrix = map.is_affine()
-                           ? known[matrices.congruence_class(map, degree_of_w, cell->material_id())]
-                           : own;
+        auto &matrix =
+            map.is_affine() ? known[matrices.congruence_class(map, p, cell->material_id())] : own;
         if (!matrix)
           matrix = std::make_shared<const FullMatrix<double>>(
-              matrices.stiffness(map, degree_of_w, cell->material_id()));
+              matrices.stiffness(map, p, cell->material_id()));
         stiffness.push_back(matrix);
         K.add(dofs, *matrix);
       });
@@ -166,14 +177,14 @@ double TestSpace::norm(const Vector<double> &w) const
 double TestSpace::square_by_strains(const Vector<double> &w) const
 {
   constexpr unsigned int n_gauss = 8; // of what is small: more than enough
-  const LocalNumbering &numbering = lender->tables->numbering(degree_of_w);
   double result = 0;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
   {
     const CellMap<2> map = map_of<2>(cell);
-    const EnergyRule rule(map, degrees_of_work(map, 2 * degree_of_w, scene.is_axisymmetric()),
-                          n_gauss);
-    const ShapeTable<2> &table = lender->tables->gradients(degree_of_w, rule.n_gauss);
+    const unsigned int p = degrees[cell->active_cell_index()];
+    const LocalNumbering &numbering = lender->tables->numbering(p);
+    const EnergyRule rule(map, degrees_of_work(map, 2 * p, scene.is_axisymmetric()), n_gauss);
+    const ShapeTable<2> &table = lender->tables->gradients(p, rule.n_gauss);
     double square = 0;
     const auto dofs = space.cell_dofs(cell->active_cell_index());
     std::vector<double> local(dofs.size());
@@ -376,15 +387,12 @@ std::vector<double> TestSpace::lengths(const TestMotion &motion) const
   for (const TestMotion::Fall &fall : motion.falls())
   {
     double nearest = scene.geometry.diameter();
-    for (const Node &node : nodes)
-      if (std::find(node.boundaries.begin(), node.boundaries.end(), fall.boundary) !=
-          node.boundaries.end())
-      {
-        const double distance = node.x.distance(fall.from);
-        if (distance > 1e-14 * nearest && distance > 0)
-          nearest = std::min(nearest, distance);
-      }
-    result.push_back(degree_of_w * nearest);
+    for (const Edge &edge : edges)
+      for (const unsigned int end : {0, 1})
+        if (edge.boundary == fall.boundary &&
+            edge.ends[end].distance(fall.from) < edge.ends[1 - end].distance(fall.from))
+          nearest = std::min(nearest, edge.ends[1 - end].distance(fall.from));
+    result.push_back(nearest);
   }
   return result;
 }
@@ -395,10 +403,11 @@ std::vector<double> TestSpace::lengths(const TestMotion &motion) const
 TestSpace::Residual TestSpace::residual(const Solution<2> &solution) const
 {
   Residual result{Vector<double>(space.n_dofs()), Vector<double>(space.n_dofs())};
-  const LocalNumbering &numbering = solution.tables.numbering(degree_of_w);
   for (const WorkOnPart &part : stress_on_parts(solution, *mesh, degrees, *tables_in_parts))
   {
-    const auto dofs = space.cell_dofs(part.b->active_cell_index());
+    const unsigned int cell = part.b->active_cell_index();
+    const LocalNumbering &numbering = solution.tables.numbering(degrees[cell]);
+    const auto dofs = space.cell_dofs(cell);
     const unsigned int n_shapes = dofs.size() / 2;
     for (unsigned int i = 0; i < dofs.size(); ++i)
     {

@@ -41,8 +41,7 @@ enum class TractionKind
  * a part of length l, and the work of friction on what is missed is at most `int g |fall| (1 - s/l) ds`. What a pressure does there is
  * known where contact is open (open_contact.h), and that of friction by pressure by pressing(). Reactions bear no fall.
  *
- * In the plane. On a side of several normals that contact, symmetry or springs hold w is R along x and y, or 0, and bears no fall; R is constant
- * where it is curved.
+ * In the plane. On a side of several normals that contact, symmetry or springs hold w is R along x and y, or 0, and bears no fall.
  */
 class TestMotion
 {
@@ -89,6 +88,9 @@ public:
   unsigned int body_number() const; ///< of the body that has the boundary: on others w = 0
 
   double largest() const; ///< |R| on the boundary is no more
+
+  /** Is R on the goal a rotation along a curve? Edges of it are no chords. */
+  bool turns_along_curve() const;
 
 private:
   struct Meeting;

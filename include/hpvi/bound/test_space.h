@@ -26,7 +26,8 @@ struct GradedPoint
 /**
  * Continuous displacements w on a mesh of their own, which descends from the coarse mesh of a scene: fine enough that least
  * energies are near, and bisected again and again at some points, so that w can fall there along a short edge. It does not know
- * the mesh of any u_N, and serves all steps. Of a body with curves, which each step meshes anew, it has the mesh of that step and serves it alone.
+ * the mesh of any u_N, and serves all steps. Of a body with curves, which each step meshes anew, it has the mesh of that step and serves it alone; so that rotations are in it, curved cells have
+ * the degree of their edges.
  */
 class TestSpace
 {
@@ -81,6 +82,13 @@ private:
     std::vector<unsigned int> boundaries;
   };
 
+  /** On the boundary, from vertex to vertex. */
+  struct Edge
+  {
+    unsigned int boundary;
+    std::array<dealii::Point<2>, 2> ends;
+  };
+
   void find_nodes();
   void assemble();
   double square_by_strains(const dealii::Vector<double> &w) const;
@@ -95,6 +103,7 @@ private:
   const Degrees degrees;
   const DisplacementSpace<2> space;                                         ///< without supports
   std::vector<Node> nodes;                                                  ///< on the boundary
+  std::vector<Edge> edges;
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> stiffness; ///< by cell
   dealii::SparsityPattern pattern;
   dealii::SparseMatrix<double> K;
