@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/memo_table.h>
 #include <hpvi/bound/cell_constants.h>
 #include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/legendre.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace hpvi
 {
@@ -60,31 +62,49 @@ FullMatrix<double> both_sides(const FullMatrix<double> &M, const FullMatrix<doub
   return result;
 }
 
+/** Of r of degree m, and what its products with D need: n points of Gauss. */
+struct Interpolation
+{
+  Interpolation(const unsigned int m, const unsigned int n)
+      : coarse(m + 1), fine(n), to_fine(n, m + 1), to_modes(n, n)
+  {
+    const auto basis = Polynomials::generate_complete_Lagrange_basis(coarse.get_points());
+    for (unsigned int q = 0; q < n; ++q)
+    {
+      for (unsigned int i = 0; i <= m; ++i)
+        to_fine(q, i) = basis[i].value(fine.point(q)[0]);
+      const std::vector<double> L = legendre::values(n, 2 * fine.point(q)[0] - 1);
+      for (unsigned int i = 0; i < n; ++i) // of P_i, which is at most 1
+        to_modes(i, q) = std::sqrt(2.) * fine.weight(q) * L[i] * legendre::root(i);
+    }
+  }
+
+  QGauss<1> coarse, fine;
+  FullMatrix<double> to_fine, to_modes;
+};
+
+/** Made once: points cost more than what is done with them. */
+const Interpolation &interpolation(const unsigned int m, const unsigned int n)
+{
+  static std::map<std::pair<unsigned int, unsigned int>, Interpolation> known;
+  return memoised(known, {m, n}, [&]() { return Interpolation(m, n); });
+}
+
 /** delta for r of degree @p m. */
 double reciprocal_error(const CellMap<2> &map, const bool has_circumference, const unsigned int m)
 {
-  const unsigned int g = map_degree(map), n = m + (has_circumference ? 3 : 2) * g;
-  const QGauss<1> coarse(m + 1), fine(n);
-  FullMatrix<double> r = divisors(map, has_circumference, coarse);
+  const unsigned int n = m + (has_circumference ? 3 : 2) * map_degree(map);
+  const Interpolation &tables = interpolation(m, n);
+  FullMatrix<double> r = divisors(map, has_circumference, tables.coarse);
   for (unsigned int a = 0; a <= m; ++a)
     for (unsigned int b = 0; b <= m; ++b)
       r(a, b) = 1 / r(a, b);
-  const auto basis = Polynomials::generate_complete_Lagrange_basis(coarse.get_points());
-  FullMatrix<double> to_fine(n, m + 1), to_modes(n, n);
-  for (unsigned int q = 0; q < n; ++q)
-  {
-    for (unsigned int i = 0; i <= m; ++i)
-      to_fine(q, i) = basis[i].value(fine.point(q)[0]);
-    const std::vector<double> L = legendre::values(n, 2 * fine.point(q)[0] - 1);
-    for (unsigned int i = 0; i < n; ++i) // of P_i, which is at most 1
-      to_modes(i, q) = std::sqrt(2.) * fine.weight(q) * L[i] * legendre::root(i);
-  }
-  FullMatrix<double> missed = both_sides(to_fine, r);
-  const FullMatrix<double> D = divisors(map, has_circumference, fine);
+  FullMatrix<double> missed = both_sides(tables.to_fine, r);
+  const FullMatrix<double> D = divisors(map, has_circumference, tables.fine);
   for (unsigned int a = 0; a < n; ++a)
     for (unsigned int b = 0; b < n; ++b)
       missed(a, b) = 1 - missed(a, b) * D(a, b);
-  const FullMatrix<double> modes = both_sides(to_modes, missed);
+  const FullMatrix<double> modes = both_sides(tables.to_modes, missed);
   double sum = 0;
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)

@@ -13,15 +13,17 @@ namespace
 {
 constexpr unsigned int largest_degree = 40;
 
+/** Of polynomials up to largest_degree and two derivatives, not all of them set: maps are asked too often for vectors. */
+using Values = std::array<std::array<double, largest_degree + 1>, 3>;
+
 /** P_k(2 s - 1) for k = 0 ... n and its derivatives by s up to @p order, one list after the other. */
-std::array<std::vector<double>, 3> legendre(const double s, const unsigned int n,
-                                            const unsigned int order)
+Values legendre(const double s, const unsigned int n, const unsigned int order)
 {
   const double x = 2 * s - 1;
-  std::array<std::vector<double>, 3> P;
-  for (unsigned int d = 0; d <= order; ++d)
-    P[d].resize(n + 1);
+  Values P;
   P[0][0] = 1;
+  for (unsigned int d = 1; d <= order; ++d)
+    P[d][0] = 0;
   for (unsigned int k = 1; k <= n; ++k)
   {
     const double before = k > 1 ? P[0][k - 2] : 0.;
@@ -59,7 +61,7 @@ EdgeBlend::EdgeBlend(const CurvePiece &curve, const std::function<Point<2>(doubl
   {
     const double s = rule.point(i)[0];
     const Tensor<1, 2> blend = way(s) - (a + s * (b - a));
-    const std::vector<double> P = legendre(s, degree, 0)[0];
+    const auto P = legendre(s, degree, 0)[0];
     for (unsigned int k = 0; k <= degree; ++k)
       coefficients[k] += rule.weight(i) * (k < degree ? 2. * k + 1 : degree) * P[k] * blend;
   }

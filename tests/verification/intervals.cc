@@ -505,6 +505,53 @@ const std::vector<HeldProbe> held_probes{
              {"Boundary bottom/Symmetry", "true"}}),
      "bottom", "", "slides at an angle"}};
 
+/**
+ * On curved bodies forces and moments: the torque of a ring whose outer edge is turned is 4 pi mu omega a^2 b^2/(b^2 - a^2), pressure
+ * inside a quarter of a ring pulls at its ends by statics alone, and what edges pull in a pushed ring is that of a far finer run.
+ */
+TEST(Intervals, OfCurvedBodies)
+{
+  const Overrides ring{{"Geometry/Shape", "ring sector"}, {"Geometry/Radii", "1, 2"},
+                       {"Material/Young's modulus", "1"}, {"Material/Poisson's ratio", "0.3"},
+                       {"Error/Bound", "true"},           {"Adaptivity/Method", "pu"},
+                       {"Adaptivity/Start degree", "2"},  {"Adaptivity/Maximum steps", "6"}};
+  const Numbers turned =
+      numbers_of(scene_of(with(ring, {{"Geometry/Angles", "0, 360"},
+                                      {"Geometry/Subdivisions", "1, 6"},
+                                      {"Boundary outer/Displacement", "-0.1*y; 0.1*x"},
+                                      {"Boundary inner/Displacement", "0; 0"}})));
+  EXPECT_EQ(turned.n_steps, 6U);
+  const double torque = 4 * numbers::PI * 0.1 / 2.6 * 4 / 3;
+  for (const auto &[name, exact] : std::map<std::string, double>{
+           {"outer.M", torque}, {"inner.M", -torque}, {"inner.x", 0.}, {"inner.y", 0.}})
+  {
+    SCOPED_TRACE(name);
+    const std::vector<Interval> &intervals = turned.intervals.at(name);
+    ASSERT_EQ(intervals.size(), 6U);
+    for (unsigned int k = 2; k < 6; ++k) // where edges of lower degree are off the circle
+      EXPECT_LE(std::abs(intervals[k].centre - exact), intervals[k].half_width + 1e-12);
+    EXPECT_LT(intervals[5].half_width, 2e-3 * torque);
+    EXPECT_LT(intervals[5].half_width, 0.1 * intervals[2].half_width);
+  }
+  const Overrides quarter = with(ring, {{"Geometry/Subdivisions", "1, 2"}});
+  const Interval pulled = numbers_of(scene_of(with(quarter, {{"Boundary inner/Pressure", "1"},
+                                                             {"Boundary start/Symmetry", "true"},
+                                                             {"Boundary end/Symmetry", "true"}})))
+                              .intervals.at("start.y")
+                              .back();
+  EXPECT_NEAR(pulled.centre, -1., 1e-9);
+  EXPECT_LT(pulled.half_width, 1e-8);
+  const Numbers held =
+      numbers_of(scene_of(with(quarter, {{"Boundary inner/Displacement", "0; 0"},
+                                         {"Boundary outer/Displacement", "0.1; 0"}})));
+  const std::vector<Interval> &forces = held.intervals.at("outer.x");
+  ASSERT_EQ(forces.size(), 6U);
+  for (unsigned int k = 1; k < 5; ++k)
+    EXPECT_LE(std::abs(forces[k].centre - forces[5].centre),
+              forces[k].half_width + forces[5].half_width);
+  EXPECT_LT(forces[5].half_width, 0.5 * forces[1].half_width);
+}
+
 using AnyProbe = ::testing::TestWithParam<HeldProbe>;
 
 TEST_P(AnyProbe, HasTheMeanOfAFinerRun)

@@ -443,7 +443,8 @@ TEST(EnergyRule, CountsNoLessThanAll)
   for (const double small : {0.2, 0.02, 0.002})
   {
     SCOPED_TRACE(small);
-    const CellMap<2> map({{Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, small)}});
+    const CellMap<2> map(
+        CellMap<2>::Vertices{{Point<2>(0, 0), Point<2>(1, 0), Point<2>(0, 1), Point<2>(1, small)}});
     const EnergyRule rule(map, {1, false}, 0);
     const QGauss<2> gauss(rule.n_gauss);
     double sum = 0; // det DF = 1 - (1 - small) x
@@ -1010,10 +1011,9 @@ TEST(RowStresses, MeetTheResidualIdentity)
                   free = {{"Body force/Expression", "0; 0"},
                           {"Boundary left/Traction", ""},
                           {"Boundary bottom/Traction", ""},
-                          {"Boundary top/Displacement", "0.1; 0.2*x"}};
+                          {"Boundary top/Displacement", ""},
+                          {"Boundary right/Displacement", "0.1*y; 0.2*x"}};
   for (const auto &[overrides, seed] : std::vector<std::pair<Overrides, unsigned int>>{
-           {moved, 1},
-           {moved, 3},
            {moved, 8},
            {with(moved, {{"Geometry/Centre", "3, 0"}, {"Material/Plane", "axisymmetric"}}), 3},
            {with(loaded_block, free), 4},
@@ -1044,7 +1044,7 @@ TEST(RowStresses, MeetTheResidualIdentity)
       const bool is_at_corner = (cell->at_boundary(0) || cell->at_boundary(1)) &&
                                 (cell->at_boundary(2) || cell->at_boundary(3));
       const Quadrature<2> rule =
-          is_at_corner ? corner_quadrature({0, 1, 2, 3}, p + 6) : Quadrature<2>(QGauss<2>(p + 3));
+          is_at_corner ? corner_quadrature({0, 1, 2, 3}, p + 3) : Quadrature<2>(QGauss<2>(p + 3));
       const ShapeTable<2> table = tabulate<2>(p, rule.get_points(), rule.get_weights(), false);
       const LocalNumbering &numbering = of.lab.tables.numbering(p);
       const auto dofs = space.cell_dofs(index);
