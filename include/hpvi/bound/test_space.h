@@ -3,6 +3,7 @@
 #define hpvi_test_space_h
 
 #include <hpvi/algebra/linear_solver.h>
+#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/part_tables.h>
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/plane/solution.h>
@@ -101,8 +102,8 @@ private:
   const std::shared_ptr<const Spaces<2>> lender;
   const std::shared_ptr<const dealii::Triangulation<2>> mesh;
   const Degrees degrees;
-  const DisplacementSpace<2> space;                                         ///< without supports
-  std::vector<Node> nodes;                                                  ///< on the boundary
+  const DisplacementSpace<2> space; ///< without supports
+  std::vector<Node> nodes;          ///< on the boundary
   std::vector<Edge> edges;
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> stiffness; ///< by cell
   dealii::SparsityPattern pattern;
@@ -110,6 +111,7 @@ private:
   dealii::Vector<double> applied; ///< L(v_i)
   const double missed_strain;
   std::map<unsigned int, std::unique_ptr<System>> systems; ///< by body
+  mutable std::vector<EnergyRule> rules;                   ///< of squares by strains, by cell
   const std::shared_ptr<PartTables> tables_in_parts;
 };
 } // namespace hpvi
