@@ -1017,7 +1017,6 @@ TEST(RowStresses, MeetTheResidualIdentity)
            {moved, 8},
            {with(moved, {{"Geometry/Centre", "3, 0"}, {"Material/Plane", "axisymmetric"}}), 3},
            {with(loaded_block, free), 4},
-           {with(turned_block, free), 5},
            {with(solid_block, free), 6}})
   {
     SCOPED_TRACE(seed);
@@ -1044,7 +1043,7 @@ TEST(RowStresses, MeetTheResidualIdentity)
       const bool is_at_corner = (cell->at_boundary(0) || cell->at_boundary(1)) &&
                                 (cell->at_boundary(2) || cell->at_boundary(3));
       const Quadrature<2> rule =
-          is_at_corner ? corner_quadrature({0, 1, 2, 3}, p + 3) : Quadrature<2>(QGauss<2>(p + 3));
+          is_at_corner ? corner_quadrature({0, 1, 2, 3}, p + 6) : Quadrature<2>(QGauss<2>(p + 3));
       const ShapeTable<2> table = tabulate<2>(p, rule.get_points(), rule.get_weights(), false);
       const LocalNumbering &numbering = of.lab.tables.numbering(p);
       const auto dofs = space.cell_dofs(index);
