@@ -33,7 +33,7 @@ EVALUATIONS = {
     "include/hpvi/plane/contact_space.h": 2, "include/hpvi/plane/initial_stress.h": 3,
     "include/hpvi/results/contact_traces.h": 1, "include/hpvi/results/turned_divergence.h": 1,
     "include/hpvi/space/primal_space.h": 1, "source/bound/admissible_pressure.cc": 4,
-    "source/bound/coulomb_bound.cc": 3, "source/bound/coulomb_coupling.cc": 4, "source/bound/coupling_spaces.cc": 1, "source/bound/slip_direction.cc": 1,
+    "source/bound/coulomb_bound.cc": 3, "source/bound/coulomb_coupling.cc": 3, "source/bound/coupling_spaces.cc": 1, "source/bound/slip_direction.cc": 1,
     "source/plane/displacement_cuts.cc": 2, "source/plane/given_data.cc": 7,
     "source/plane/load_rule.cc": 4, "source/plane/failure_mechanism.cc": 3, "source/plane/contact_face.cc": 6,
     "source/plane/contact_numbering.cc": 6, "source/plane/static_admissibility.cc": 1, "source/plane/elastic_system.cc": 2,

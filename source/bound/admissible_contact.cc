@@ -113,8 +113,16 @@ double MatchingContact::lift(const std::vector<Bump> &bumps) const
   double largest = 0;
   for (const Bump &bump : bumps)
     largest = std::max(largest, bump.largest());
+  const auto is_moved = [&](const ContactFace<2> &face)
+  {
+    const FaceDofs<2> dofs(face, solution.displacement_space, solution.tables);
+    return std::any_of(dofs.own.begin(), dofs.own.end(),
+                       [&](const types::global_dof_index dof) { return X.u[dof] != 0.; });
+  };
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
+    if (!near[k] && !is_moved(faces[k]))
+      continue;
     const auto along = [&](const Tensor<1, 2> &direction)
     { return edge_trace(faces[k], direction, solution.displacement_space, solution.tables, X.u); };
     const EdgePolynomial normal = along(faces[k].frame(0.5).normal),

@@ -105,9 +105,11 @@ double Excess::operator()(const unsigned int face, const double s) const
   if (!chi[face])
     return 0.;
   const double u_t = contact.slip(face, s),
-               against = std::abs(u_t) * (1. - (u_t < 0. ? -1. : 1.) * chi[face](s)),
-               mu = faces[face].friction_coefficient(faces[face].point(s)),
-               room = std::max(0., contact.room(face, s)), value = mu * against - room;
+               against = std::abs(u_t) * (1. - (u_t < 0. ? -1. : 1.) * chi[face](s));
+  if (against <= 0.)
+    return 0.;
+  const double room = std::max(0., contact.room(face, s)),
+               value = against * faces[face].friction_coefficient(faces[face].point(s)) - room;
   return value > round_off ? value : 0.;
 }
 

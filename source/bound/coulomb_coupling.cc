@@ -16,8 +16,8 @@ using namespace dealii;
 
 namespace
 {
-/** What spaces still miss of theta: a percent or two, as a rule; degrees p + 1 on the mesh of the step up to 15 percent. */
-constexpr double margin = 1.05, margin_between_bodies = 1.2;
+/** What spaces still miss of theta: a percent or two, as a rule. */
+constexpr double margin = 1.05;
 
 /** An edge of the boundary at one of its vertices. */
 struct BoundaryEdge
@@ -29,23 +29,36 @@ struct BoundaryEdge
 
 using EdgesAtVertices = std::map<unsigned int, std::vector<BoundaryEdge>>;
 
+/** At ends of faces with friction that knows the pressure, and of what is opposite. */
 EdgesAtVertices edges_at_vertices(const Solution<2> &solution)
 {
   EdgesAtVertices result;
+  const auto add_vertices = [&](const auto &cell, const unsigned int f)
+  {
+    for (unsigned int end = 0; end < 2; ++end)
+      result[cell->face(f)->vertex_index(end)];
+  };
+  for (const ContactFace<2> &face : solution.contact_space.faces())
+    if (face.condition->friction.knows_pressure())
+    {
+      add_vertices(face.cell, face.face_no);
+      for (const ContactSegment<2> &segment : face.segments)
+        add_vertices(segment.cell, segment.face_no);
+    }
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
     for (const unsigned int f : cell->face_indices())
-      if (cell->face(f)->at_boundary() &&
-          cell->face(f)->boundary_id() < solution.scene.boundaries.size())
+      if (cell->at_boundary(f) && cell->face(f)->boundary_id() < solution.scene.boundaries.size())
         for (unsigned int end = 0; end < 2; ++end)
-        {
-          const BoundaryCondition<2> &condition =
-              solution.scene.boundaries[cell->face(f)->boundary_id()];
-          result[cell->face(f)->vertex_index(end)].push_back(
-              {&condition,
-               condition.held_direction(
-                   map_of<2>(cell).curve_normal(f, point_on_face<2>(f, Point<1>(end)))),
-               cell->face(f)->vertex(end)});
-        }
+          if (const auto found = result.find(cell->face(f)->vertex_index(end));
+              found != result.end())
+          {
+            const BoundaryCondition<2> &condition =
+                solution.scene.boundaries[cell->face(f)->boundary_id()];
+            found->second.push_back({&condition,
+                                     condition.held_direction(map_of<2>(cell).curve_normal(
+                                         f, point_on_face<2>(f, Point<1>(end)))),
+                                     cell->face(f)->vertex(end)});
+          }
   return result;
 }
 
@@ -89,18 +102,22 @@ bool is_clamped(const BoundaryEdge &edge)
                      { return std::abs(cross_product_2d(held.front()) * direction) > 1e-6; });
 }
 
-/** The angle of the body at a vertex. */
-std::map<unsigned int, double> angles_at_vertices(const Solution<2> &solution)
+/** The angle of the body at those of the vertices where boundaries of two conditions meet. */
+std::map<unsigned int, double> angles_at_vertices(const Solution<2> &solution,
+                                                  const EdgesAtVertices &edges)
 {
   std::map<unsigned int, double> result;
+  for (const auto &[vertex, around] : edges)
+    if (around.size() == 2 && around[0].condition != around[1].condition)
+      result[vertex] = 0.;
   for (const auto &cell : solution.displacement_space.dof_handler().active_cell_iterators())
-    if (cell->at_boundary())
-      for (unsigned int v = 0; v < 4; ++v)
+    for (unsigned int v = 0; v < 4; ++v)
+      if (const auto found = result.find(cell->vertex_index(v)); found != result.end())
       {
         const Tensor<2, 2> J =
             transpose(map_of<2>(cell).jacobian(GeometryInfo<2>::unit_cell_vertex(v)));
         const Tensor<1, 2> a = (v & 1U ? -1. : 1.) * J[0], b = (v & 2U ? -1. : 1.) * J[1];
-        result[cell->vertex_index(v)] += std::acos((a * b) / (a.norm() * b.norm()));
+        found->second += std::acos((a * b) / (a.norm() * b.norm()));
       }
   return result;
 }
@@ -151,31 +168,12 @@ struct CoulombCoupling::Boundary
 };
 
 CoulombCoupling::CoulombCoupling(const Solution<2> &solution, CouplingSpaces &spaces)
-    : solution(solution), spaces(spaces),
-      boundary(new Boundary{edges_at_vertices(solution), angles_at_vertices(solution)}),
-      raised(spaces.raised(solution))
+    : solution(solution), spaces(spaces), boundary(new Boundary{edges_at_vertices(solution), {}})
 {
+  boundary->angles = angles_at_vertices(solution, boundary->edges);
 }
 
 CoulombCoupling::~CoulombCoupling() = default;
-
-namespace
-{
-/** A face whose friction has no point in the space would be left out of the coupling. */
-void require_all_seen(const ContactSpace<2> &space, const FrictionAlong &friction)
-{
-  for (const auto &[edge, x] : friction.acting())
-    if (std::none_of(space.faces().begin(), space.faces().end(),
-                     [&, edge = edge](const ContactFace<2> &face)
-                     {
-                       const EdgePart own(face.cell, face.face_no);
-                       return face.n_multipliers > 0 &&
-                              (own.has_middle_of(edge) || edge.has_middle_of(own));
-                     }))
-      throw NumericalFailure("friction at " + to_string(x) +
-                             " has no point in the space of its coupling");
-}
-} // namespace
 
 /** Multipliers by what v and X have of them. */
 struct CoulombCoupling::Unknowns
@@ -190,15 +188,6 @@ CoulombCoupling::Unknowns CoulombCoupling::unknowns(const ContactCompliance &com
 {
   const ContactSpace<2> &space = compliance.spaces->contact_space;
   const std::vector<ContactMultiplier<2>> &multipliers = space.multipliers();
-  const std::vector<ContactFace<2>> &known = solution.contact_space.faces();
-  const auto is_same = [](const ContactFace<2> &one, const ContactFace<2> &other)
-  {
-    return one.cell->active_cell_index() == other.cell->active_cell_index() &&
-           one.face_no == other.face_no;
-  };
-  if (raised && !std::equal(known.begin(), known.end(), space.faces().begin(), space.faces().end(),
-                            is_same)) // the slave may be another one
-    throw NumericalFailure("contact has other faces at higher degrees");
   Unknowns result;
   std::vector<bool> is_taken(multipliers.size());
   for (unsigned int k = 0; k < space.faces().size(); ++k)
@@ -212,8 +201,7 @@ CoulombCoupling::Unknowns CoulombCoupling::unknowns(const ContactCompliance &com
     {
       const unsigned int t = face.first_multiplier + i, n = multipliers[t].partner;
       const double s = gauss.point(i)[0];
-      const FrictionAlong::Value value =
-          raised ? friction.on_face(k, s) : friction(edge, s, face.point(s));
+      const FrictionAlong::Value value = friction(edge, s, face.point(s));
       if (value.sticks)
         result.held.push_back(t);
       else if (n == numbers::invalid_unsigned_int)
@@ -230,15 +218,16 @@ CoulombCoupling::Unknowns CoulombCoupling::unknowns(const ContactCompliance &com
   for (unsigned int i = 0; i < multipliers.size(); ++i)
     if (multipliers[i].is_bilateral && !is_taken[i])
       result.held.push_back(i);
-  if (!raised)
-    require_all_seen(space, friction);
+  if (const auto missed = friction.missed_by(space.faces()))
+    throw NumericalFailure("friction at " + to_string(*missed) +
+                           " has no point in the space of its coupling");
   return result;
 }
 
 double CoulombCoupling::of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks) const
 {
   const FrictionAlong friction(solution.contact_space.faces(), chi, sticks);
-  ContactCompliance &compliance = raised ? *raised : spaces.of(solution, friction);
+  ContactCompliance &compliance = spaces.of(solution, friction);
   const Unknowns all = unknowns(compliance, friction);
   if (all.friction.empty())
     return 0.;
@@ -268,15 +257,15 @@ double CoulombCoupling::closed_forms(const SlipDirection &chi,
     for (unsigned int end = 0; end < 2 && !is_pair; ++end)
     {
       const unsigned int vertex = faces[k].cell->face(faces[k].face_no)->vertex_index(end);
-      const auto found = edges.find(vertex);
-      if (found == edges.end() || found->second.size() != 2)
+      const auto found = angles.find(vertex);
+      if (found == angles.end())
         continue;
+      const double angle = found->second;
       const ContactFrame<2> side = contact_frame(faces[k].map, faces[k].face_no, Point<1>(end));
-      const double inwards = (faces[k].point(0.5) - side.x) * side.tangent < 0. ? -1. : 1.,
-                   angle = angles.at(vertex);
+      const double inwards = (faces[k].point(0.5) - side.x) * side.tangent < 0. ? -1. : 1.;
       const Tensor<1, 2> normal = faces[k].node_frame(end).normal;
       const double turn = std::atan2(inwards * (side.tangent * normal), side.normal * normal);
-      for (const BoundaryEdge &edge : found->second)
+      for (const BoundaryEdge &edge : edges.at(vertex))
         if (edge.condition == faces[k].condition)
           continue;
         else if (is_clamped(edge))
@@ -292,46 +281,51 @@ double CoulombCoupling::closed_forms(const SlipDirection &chi,
 
 namespace
 {
-/** A place at which mu_f jumps on a face, or between two that follow each other, seen from the inside of each; nothing: there is none. */
+/** A place at which mu_f chi jumps on a face, or between two that follow each other, seen from the inside of each; nothing: there is none. */
 std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &faces,
                                             const SlipDirection &chi,
                                             const std::vector<bool> &sticks)
 {
-  constexpr double hair = 1e-7;
+  constexpr double hair = 1e-7, round_off = 1e-9;
   struct End
   {
     Tensor<1, 2> normal;
-    double mu;
+    double value;
   };
   std::map<unsigned int, End> at_vertices;
   double largest = 0;
+  const auto value = [&](const unsigned int k, const double s)
+  { return faces[k].friction_coefficient(faces[k].point(s)) * chi[k](s); };
   for (unsigned int k = 0; k < faces.size(); ++k)
     for (const double s : {0., 0.5, 1.})
       if (chi[k])
-        largest = std::max(largest,
-                           faces[k].friction_coefficient(faces[k].point(s)) * std::abs(chi[k](s)));
-  const auto differ = [&](const double a, const double b)
-  { return std::abs(a - b) > 1e-3 * largest; };
+        largest = std::max(largest, std::abs(value(k, s)));
   for (unsigned int k = 0; k < faces.size(); ++k)
   {
     if (!chi[k] || (!sticks.empty() && sticks[k]))
       continue;
-    const auto mu = [&](const double s)
-    { return faces[k].friction_coefficient(faces[k].point(s)) * chi[k](s); };
-    for (const double cut : faces[k].coefficient.cuts)
-      if (cut > hair && cut < 1 - hair && differ(mu(cut - hair), mu(cut + hair)))
-        return faces[k].point(cut);
+    for (const CutRule::Jump &jump : faces[k].coefficient.jumps)
+      if (std::abs(jump.height * chi[k](jump.s)) > round_off * largest)
+        return faces[k].point(jump.s);
     for (unsigned int end = 0; end < 2; ++end)
     {
-      const End own{faces[k].node_frame(end).normal, mu(end == 0 ? hair : 1 - hair)};
+      const double inwards = end == 0 ? hair : -hair;
+      const End own{faces[k].node_frame(end).normal, // its value by a straight line
+                    2 * value(k, end + inwards) - value(k, end + 2 * inwards)};
       const auto [known, is_new] =
           at_vertices.emplace(faces[k].cell->face(faces[k].face_no)->vertex_index(end), own);
       if (!is_new && (known->second.normal - own.normal).norm() < 1e-6 &&
-          differ(known->second.mu, own.mu))
+          std::abs(known->second.value - own.value) > round_off * largest)
         return faces[k].point(end);
     }
   }
   return std::nullopt;
+}
+
+bool is_of_pair(const std::vector<BoundaryEdge> &around, const BoundaryCondition<2> &side)
+{
+  return std::any_of(around.begin(), around.end(),
+                     [&](const BoundaryEdge &edge) { return edge.condition->pair == side.pair; });
 }
 } // namespace
 
@@ -353,6 +347,9 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
       const ContactFrame<2> frame = faces[k].node_frame(end);
       const auto is_bad = [&](const std::vector<BoundaryEdge> &around)
       {
+        if (around.size() == 2 && around[0].condition == around[1].condition &&
+            around[0].normal * around[1].normal > 1. - 1e-12)
+          return false; // inside of contact
         bool X_vanishes = false;
         Tensor<1, 2> first;
         bool v_vanishes = false;
@@ -370,18 +367,13 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
         }
         return X_vanishes && !v_vanishes;
       };
-      // Next to all ends of faces are inside of contact, and none of them is bad.
-      const unsigned int own = faces[k].cell->face(faces[k].face_no)->vertex_index(end);
-      if (const auto found = edges.find(own); found != edges.end() && !is_bad(found->second))
-        continue;
-      bool is_here = false, all_are_bad = true;
-      for (const auto &[vertex, around] : edges)
-        if (around[0].vertex.distance(x) < near)
-        {
-          is_here = true;
-          all_are_bad = all_are_bad && is_bad(around);
-        }
-      if (is_here && all_are_bad)
+      // Of two bodies either may lift.
+      bool all_are_bad = is_bad(edges.at(faces[k].cell->face(faces[k].face_no)->vertex_index(end)));
+      if (all_are_bad && !faces[k].segments.empty())
+        for (const auto &[vertex, around] : edges)
+          all_are_bad = all_are_bad && (around[0].vertex.distance(x) >= near ||
+                                        !is_of_pair(around, *faces[k].condition) || is_bad(around));
+      if (all_are_bad)
         return "contact with friction ends at " + to_string(x) +
                ", where the body can slide but not lift, and no coupling is finite";
     }
@@ -394,7 +386,6 @@ std::string CoulombCoupling::unbounded_at(const SlipDirection &chi,
 
 double CoulombCoupling::operator()(const SlipDirection &chi, const std::vector<bool> &sticks) const
 {
-  return std::max((raised ? margin_between_bodies : margin) * of_matrices(chi, sticks),
-                  closed_forms(chi, sticks));
+  return std::max(margin * of_matrices(chi, sticks), closed_forms(chi, sticks));
 }
 } // namespace hpvi

@@ -45,11 +45,6 @@ void for_each_coupled_edge(const Triangulation<2> &mesh, const Scene<2> &scene, 
         f(cell, face);
 }
 
-bool is_on_foundation(const ContactFace<2> &face)
-{
-  return face.segments.empty();
-}
-
 /** L of a symmetric matrix; false: it is not positive definite. */
 bool factor(FullMatrix<double> &A)
 {
@@ -190,6 +185,8 @@ double CouplingMatrices::largest_eigenvalue(const Vector<double> &D) const
   const unsigned int n = D.size();
   if (n == 0 || D.all_zero())
     return 0.;
+  if (known_D.size() == n && D == known_D)
+    return known_value;
   Vector<double> q(n), y(n);
   for (unsigned int i = 0; i < n; ++i)
     q[i] = 1. + 0.3 * std::sin(7. * i + 1.);
@@ -199,29 +196,40 @@ double CouplingMatrices::largest_eigenvalue(const Vector<double> &D) const
     multiply(op, 'N', n, 1, n, 1., {A, n}, {q.begin(), n}, 0., y.begin(), n);
     q.swap(y);
   };
-  std::vector<Vector<double>> basis;
-  std::vector<double> diagonal, beside;
-  double value = 0;
+  std::vector<double> basis, diagonal, beside, parts(n);
   for (unsigned int step = 0; step < n; ++step)
   {
-    basis.push_back(q);
+    basis.insert(basis.end(), q.begin(), q.end());
     times('N', L.data());
     q.scale(D);
     times('N', &Y(0, 0));
     q.scale(D);
     times('T', L.data());
-    diagonal.push_back(q * basis.back());
-    for (unsigned int twice = 0; twice < 2; ++twice)
-      for (const Vector<double> &known : basis)
-        q.add(-(q * known), known);
-    const double before = std::exchange(value, largest_of_tridiagonal(diagonal, beside)),
-                 norm = q.l2_norm();
-    if (norm <= 1e-12 * value || (step > 10 && value - before <= 1e-9 * value && step % 5 == 0))
+    for (unsigned int round = 0; round < 2; ++round)
+    {
+      multiply('T', 'N', step + 1, 1, n, 1., {basis.data(), n}, {q.begin(), n}, 0., parts.data(),
+               n);
+      multiply('N', 'N', n, 1, step + 1, -1., {basis.data(), n}, {parts.data(), n}, 1., q.begin(),
+               n);
+      if (round == 0)
+        diagonal.push_back(parts[step]);
+    }
+    const double norm = q.l2_norm();
+    if (norm <= 1e-12 * *std::max_element(diagonal.begin(), diagonal.end()))
       break;
+    if (step > 10 && step % 5 == 0)
+    {
+      const double value = largest_of_tridiagonal(diagonal, beside),
+                   before = largest_of_tridiagonal({diagonal.begin(), diagonal.end() - 1}, beside);
+      if (value - before <= 1e-9 * value)
+        break;
+    }
     beside.push_back(norm);
     q /= norm;
   }
-  return value;
+  known_D = D;
+  known_value = largest_of_tridiagonal(diagonal, beside);
+  return known_value;
 }
 
 // @sect3{Places along contact}
@@ -241,11 +249,28 @@ FrictionAlong::FrictionAlong(const std::vector<ContactFace<2>> &faces, const Sli
   for (unsigned int k = 0; k < faces.size(); ++k)
     if (chi[k])
     {
-      Part part{EdgePart(faces[k].cell, faces[k].face_no), k, {}};
-      for (unsigned int i = 0; i < n_samples; ++i)
-        part.samples[i] = on_face(k, double(i) / (n_samples - 1)).coefficient;
-      parts.push_back(part);
+      add({EdgePart(faces[k].cell, faces[k].face_no), k, 0., 1., 1., {}});
+      for (const ContactSegment<2> &segment : faces[k].segments)
+      {
+        const auto [first, last] = std::minmax(segment.at_begin, segment.at_end);
+        Part part{EdgePart(segment.cell, segment.face_no).between(first, last),
+                  k,
+                  segment.begin,
+                  segment.end,
+                  segment.end - segment.begin,
+                  {}};
+        if (segment.at_begin > segment.at_end)
+          std::swap(part.from, part.to);
+        add(part);
+      }
     }
+}
+
+void FrictionAlong::add(Part part)
+{
+  for (unsigned int i = 0; i < n_samples; ++i)
+    part.samples[i] = on_part(part, part.edge.at(double(i) / (n_samples - 1))).coefficient;
+  parts.push_back(part);
 }
 
 FrictionAlong::Value FrictionAlong::on_face(const unsigned int face, const double s) const
@@ -255,12 +280,20 @@ FrictionAlong::Value FrictionAlong::on_face(const unsigned int face, const doubl
   return {coefficient, !sticks.empty() && sticks[face]};
 }
 
+/** At a place of the coarse edge. */
+FrictionAlong::Value FrictionAlong::on_part(const Part &part, const double place) const
+{
+  return on_face(part.face, part.from + (place - part.edge.begin) / part.edge.length() *
+                                            (part.to - part.from));
+}
+
 FrictionAlong::Value FrictionAlong::operator()(const EdgePart &edge, const double s,
                                                const Point<2> &place) const
 {
-  for (const auto &[own, face, samples] : parts)
-    if (own.is_of_same_edge(edge) && edge.at(s) >= own.begin && edge.at(s) <= own.end)
-      return on_face(face, (edge.at(s) - own.begin) / own.length());
+  for (const Part &part : parts)
+    if (part.edge.is_of_same_edge(edge) && edge.at(s) >= part.edge.begin &&
+        edge.at(s) <= part.edge.end)
+      return on_part(part, edge.at(s));
   throw NumericalFailure("friction at " + to_string(place) +
                          " is not found on the mesh of the step");
 }
@@ -273,18 +306,17 @@ FrictionAlong::Variation FrictionAlong::along(const EdgePart &edge) const
     low = std::min(low, value);
     high = std::max(high, value);
   };
-  for (const auto &[own, face, samples] : parts)
+  for (const Part &part : parts)
   {
-    if (edge.has_middle_of(own))
-      for (const double sample : samples)
-        add(sample);
-    else if (own.has_middle_of(edge))
-      for (unsigned int i = 0; i < n_samples; ++i)
-        add(on_face(face, (edge.at(double(i) / (n_samples - 1)) - own.begin) / own.length())
-                .coefficient);
-    else
+    if (!edge.overlaps(part.edge))
       continue;
-    shortest = std::min(shortest, own.length());
+    const double begin = std::max(edge.begin, part.edge.begin),
+                 end = std::min(edge.end, part.edge.end);
+    for (unsigned int i = 0; i < n_samples; ++i)
+      add(end - begin == part.edge.length()
+              ? part.samples[i]
+              : on_part(part, begin + (end - begin) * i / (n_samples - 1)).coefficient);
+    shortest = std::min(shortest, part.edge.length() / part.share);
   }
   return high < low ? Variation{0., edge.length()} : Variation{high - low, shortest};
 }
@@ -298,13 +330,23 @@ double FrictionAlong::largest() const
   return result;
 }
 
-std::vector<std::pair<EdgePart, Point<2>>> FrictionAlong::acting() const
+std::optional<Point<2>> FrictionAlong::missed_by(const std::vector<ContactFace<2>> &others) const
 {
-  std::vector<std::pair<EdgePart, Point<2>>> result;
+  std::vector<bool> is_seen(faces.size(), true);
   for (const Part &part : parts)
-    if (part.samples[n_samples / 2] != 0.)
-      result.emplace_back(part.edge, faces[part.face].point(0.5));
-  return result;
+    if (part.share == 1. && part.samples[n_samples / 2] != 0.)
+      is_seen[part.face] = false;
+  for (const ContactFace<2> &other : others)
+  {
+    const EdgePart edge(other.cell, other.face_no);
+    for (const Part &part : parts)
+      is_seen[part.face] =
+          is_seen[part.face] || (other.n_multipliers > 0 && part.edge.overlaps(edge));
+  }
+  const auto missed = std::find(is_seen.begin(), is_seen.end(), false);
+  return missed == is_seen.end()
+             ? std::nullopt
+             : std::optional<Point<2>>(faces[missed - is_seen.begin()].point(0.5));
 }
 
 // @sect3{The space of a friction}
@@ -384,8 +426,8 @@ std::vector<EdgePart> CouplingSpaces::wanted_edges(const FrictionAlong &friction
     }
     if (!is_long)
       return result.push_back(edge);
-    add({edge.half(false), {{ends[0], false}}}, level + 1);
-    add({edge.half(true), {{false, ends[1]}}}, level + 1);
+    add({edge.between(0., 0.5), {{ends[0], false}}}, level + 1);
+    add({edge.between(0.5, 1.), {{false, ends[1]}}}, level + 1);
   };
   for (const CoarseEdge &edge : coarse_edges)
     add(edge, 0);
@@ -405,8 +447,7 @@ CouplingSpaces::space_with(const std::vector<EdgePart> &edges) const
                           {
                             const EdgePart own(cell, face);
                             for (const EdgePart &wanted : edges)
-                              if (own.has_middle_of(wanted) &&
-                                  wanted.length() < 0.75 * own.length())
+                              if (own.overlaps(wanted) && wanted.length() < 0.75 * own.length())
                               {
                                 cell->set_refine_flag();
                                 is_changed = true;
@@ -432,25 +473,9 @@ ContactCompliance &CouplingSpaces::of(const Solution<2> &solution, const Frictio
   {
     kept.emplace_front(std::piecewise_construct, std::forward_as_tuple(edges),
                        std::forward_as_tuple(*scene, space_with(edges), *elements));
-    if (kept.size() > 2)
+    if (kept.size() > 4)
       kept.pop_back();
   }
   return kept.front().second;
-}
-
-std::unique_ptr<ContactCompliance> CouplingSpaces::raised(const Solution<2> &solution)
-{
-  const std::vector<ContactFace<2>> &faces = solution.contact_space.faces();
-  if (!resolution.is_of_step && std::all_of(faces.begin(), faces.end(), is_on_foundation))
-    return nullptr;
-  begin(solution);
-  Degrees degrees = solution.displacement_space.degrees();
-  for (auto &degree : degrees)
-    ++degree;
-  return std::make_unique<ContactCompliance>(
-      solution.scene,
-      std::make_shared<const Spaces<2>>(solution.scene, solution.spaces->mesh, degrees,
-                                        solution.spaces->tables, solution.spaces->loads),
-      *elements);
 }
 } // namespace hpvi

@@ -229,7 +229,8 @@ void set_flaw(ErrorBound &result, const std::string &why, const double size)
     result.kind = BoundKind::estimate;
     result.zones.clear();
     result.why = why;
-    result.total = result.estimate;
+    result.total = result.radius = result.estimate;
+    result.theta = 0;
     set_no_energy(result);
   }
 }

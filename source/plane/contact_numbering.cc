@@ -63,14 +63,16 @@ void integrate_friction(ContactFace<dim> &face, const QGauss<1> &gauss, const Sc
   // A coarse edge has its share of the samples that loads have along a side.
   const unsigned int n_parts = coarse_cuts::n_parts(
       face.cell, 512 / gauss.size(), scene.geometry.n_cells(1 - face.face_no / 2), 16);
+  const auto parts_for = [&](const Expression<dim> &function)
+  { return coarse_cuts::varies(function) ? n_parts : 1U; };
   const unsigned int degree = face.degree + std::max(1U, face.n_points) - 1;
   face.friction =
       make_friction_rule([&face](const double s) { return face.friction_bound(face.point(s)); },
-                         gauss, degree, n_parts);
+                         gauss, degree, parts_for(face.condition->friction.bound));
   if (face.condition->friction.knows_pressure())
-    face.coefficient = make_friction_rule([&face](const double s)
-                                          { return face.friction_coefficient(face.point(s)); },
-                                          gauss, degree, n_parts);
+    face.coefficient = make_friction_rule(
+        [&face](const double s) { return face.friction_coefficient(face.point(s)); }, gauss, degree,
+        parts_for(face.condition->friction.coefficient));
   face.limits = limits_of(face, gauss);
 }
 

@@ -225,15 +225,39 @@ Run solve(const std::string &file, const Overrides &overrides,
   return run;
 }
 
-/** What all scenes together came to. */
+/** What scenes of one kind came to, or all. */
 struct Score
 {
-  unsigned int n_scenes = 0, n_bounds = 0, n_compared = 0, n_ranges = 0;
-  std::map<std::string, unsigned int> refusals, reasons; ///< how often, by their first words
-  std::map<std::string, unsigned int> violations;        ///< how often, by the kind of the scene
-  double least = infinity;                               ///< of bound/error
-  std::string where;                                     ///< the step with it
+  unsigned int n_scenes = 0, n_bounds = 0, n_compared = 0, n_ranges = 0, n_violations = 0;
+  double least = infinity; ///< of bound/error
+  std::string where;       ///< the step with it
+
+  void add(const Score &other)
+  {
+    n_scenes += other.n_scenes;
+    n_bounds += other.n_bounds;
+    n_compared += other.n_compared;
+    n_ranges += other.n_ranges;
+    n_violations += other.n_violations;
+    if (other.least < least)
+      where = other.where;
+    least = std::min(least, other.least);
+  }
+
+  bool is_empty() const ///< are scenes enough to have a bound, and have none?
+  {
+    return n_scenes >= 4 && n_bounds == 0;
+  }
 };
+
+std::ostream &operator<<(std::ostream &out, const Score &score)
+{
+  return out << score.n_scenes << " scenes, " << score.n_bounds << " steps with a bound, "
+             << score.n_ranges << " ranges of energies, forces and means, least bound/error of "
+             << score.n_compared << " steps: " << score.least
+             << (score.where.empty() ? "" : " (" + score.where + ")") << "; " << score.n_violations
+             << " scenes contradict";
+}
 
 /** What is the same in all scenes: a message up to its first number. */
 std::string first_words(const std::string &message)
@@ -333,7 +357,8 @@ public:
   Attack &operator=(const Attack &) = delete;
 
   void try_scene(unsigned int number);
-  Score score;
+  std::map<std::string, Score> scores;                   ///< by the kind of the scene
+  std::map<std::string, unsigned int> refusals, reasons; ///< how often, by their first words
 
 private:
   const std::string &kind(const unsigned int number) const
@@ -344,8 +369,8 @@ private:
   Run solve_reference(double &bound, unsigned int number) const;
   std::vector<std::string> flaws(const Run &run, const Run &reference, double of_reference,
                                  unsigned int number);
-  void compare_ranges(const Run &run, const Run &reference, double of_bodies,
-                      std::vector<std::string> &result);
+  static void compare_ranges(const Run &run, const Run &reference, double of_bodies,
+                             unsigned int &n_ranges, std::vector<std::string> &result);
   void keep(unsigned int number, const std::vector<std::string> &flaws) const;
 
   const unsigned int seed;
@@ -390,6 +415,7 @@ std::vector<std::string> Attack::flaws(const Run &run, const Run &reference,
                                        const double of_reference, const unsigned int number)
 {
   std::vector<std::string> result;
+  Score &score = scores[kind(number)];
   for (const Step &step : run.steps)
   {
     const double round_off = floor_of_errors * step.norm + step.of_rigid_motion;
@@ -407,13 +433,13 @@ std::vector<std::string> Attack::flaws(const Run &run, const Run &reference,
       }
     }
   }
-  compare_ranges(run, reference, has_curves(kind(number)) ? 1e-7 : 0., result);
+  compare_ranges(run, reference, has_curves(kind(number)) ? 1e-7 : 0., score.n_ranges, result);
   return result;
 }
 
 /** Ranges of any two steps meet, but for what bodies of two meshes differ by; of each of both runs the highest low end and the lowest high one tell. */
 void Attack::compare_ranges(const Run &run, const Run &reference, const double of_bodies,
-                            std::vector<std::string> &result)
+                            unsigned int &n_ranges, std::vector<std::string> &result)
 {
   struct End
   {
@@ -429,7 +455,7 @@ void Attack::compare_ranges(const Run &run, const Run &reference, const double o
     for (const Step &step : one->steps)
       for (const auto &[name, range] : step.ranges)
       {
-        ++score.n_ranges;
+        ++n_ranges;
         const bool of_reference = one == &reference;
         Ends &known = ends[name][of_reference];
         const std::string words = step.name + (of_reference ? " of the reference" : "");
@@ -489,6 +515,7 @@ void Attack::try_scene(const unsigned int number)
   }
   std::ofstream(stem + ".prm") << scene.text;
   std::ofstream(stem + "-reference.prm") << scene.reference;
+  Score &score = scores[kind(number)];
   ++score.n_scenes;
   double of_reference;
   const Run reference = solve_reference(of_reference, number);
@@ -503,14 +530,14 @@ void Attack::try_scene(const unsigned int number)
       found.push_back("no error that the program knows: " + surprise);
   for (const std::string &refusal : {run.refusal, reference.refusal})
     if (!refusal.empty())
-      ++score.refusals[first_words(reason_of(refusal))];
+      ++refusals[first_words(reason_of(refusal))];
   for (const std::string &reason : run.reasons)
-    ++score.reasons[first_words(reason)];
+    ++reasons[first_words(reason)];
   score.n_bounds += std::count_if(run.steps.begin(), run.steps.end(),
                                   [](const Step &step) { return !std::isnan(step.bound); });
   if (!found.empty())
   {
-    ++score.violations[kind(number)];
+    ++score.n_violations;
     keep(number, found);
   }
 }
@@ -556,21 +583,18 @@ int main(int argc, char *argv[])
   };
   for (; goes_on(); ++number)
     attack.try_scene(number);
-  const Score &score = attack.score;
-  for (const auto &[words, n] : score.refusals)
+  for (const auto &[words, n] : attack.refusals)
     std::cout << n << " runs given up: " << words << "...\n";
-  for (const auto &[words, n] : score.reasons)
+  for (const auto &[words, n] : attack.reasons)
     std::cout << n << " steps without a bound: " << words << "...\n";
-  unsigned int n_violations = 0;
-  for (const auto &[kind, n] : score.violations)
+  Score all;
+  bool is_empty = false;
+  for (const auto &[kind, score] : attack.scores)
   {
-    std::cout << n << " of kind " << kind << " contradict\n";
-    n_violations += n;
+    std::cout << kind << ": " << score << (score.is_empty() ? "; NO BOUND" : "") << '\n';
+    all.add(score);
+    is_empty = is_empty || score.is_empty();
   }
-  std::cout << score.n_scenes << " scenes, " << score.n_bounds << " steps with a bound, "
-            << score.n_ranges << " ranges of energies, forces and means\n"
-            << "least bound/error of " << score.n_compared << " steps: " << score.least
-            << (score.where.empty() ? "" : " (" + score.where + ")") << "; " << n_violations
-            << " scenes contradict" << std::endl;
-  return n_violations > 0 || score.n_ranges + score.n_compared == 0 ? 1 : 0;
+  std::cout << "in all: " << all << std::endl;
+  return all.n_violations > 0 || is_empty || all.n_ranges + all.n_compared == 0 ? 1 : 0;
 }

@@ -1079,4 +1079,34 @@ TEST(LoadHistory, HasABoundForTheComputedPast)
     std::filesystem::remove(file);
   }
 }
+
+/** Where tractions are given, what the first load step has computed is no part of them: a reason in place of a bound. */
+TEST(LoadHistory, SaysWhyJointsCurvesAndAxesHaveNoLaterBound)
+{
+  for (const auto &[name, entries] :
+       {std::pair<std::string, Overrides>{"blocks",
+                                          {{"Boundary upper.top/Displacement", "0.03*t; -0.02"}}},
+        {"askew", {}},
+        {"brake-shoe", {}},
+        {"sleeve", {}}})
+  {
+    SCOPED_TRACE(name);
+    unsigned int n_later = 0;
+    LoadHistory<2>(shipped_scene(name, with({{"Loading/Steps", "2"},
+                                             {"Adaptivity/Maximum steps", "1"},
+                                             {"Error/Bound", "true"}},
+                                            entries)))
+        .run(
+            [&](const StepReport<2> &step)
+            {
+              if (step.load.number == 1)
+                return;
+              ++n_later;
+              EXPECT_FALSE(step.bound);
+              EXPECT_EQ(step.no_bound, "friction between bodies, along curves and directions and "
+                                       "around an axis counts slip from the load step before");
+            });
+    EXPECT_GT(n_later, 0U);
+  }
+}
 } // namespace

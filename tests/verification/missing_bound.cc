@@ -3,8 +3,10 @@
 #include "discretisation.h"
 
 #include <hpvi/base/formatting.h>
+#include <hpvi/bound/error_bound.h>
 #include <hpvi/output/summary.h>
 #include <hpvi/output/tables.h>
+#include <hpvi/plane/discretisation.h>
 
 #include <cmath>
 #include <filesystem>
@@ -203,6 +205,25 @@ TEST(MissingBound, KeepsItsImbalance)
                   std::string::npos)
             << step.no_bound;
       });
+}
+
+/** What is out of balance by little leaves an estimate, and no smaller radius about a stress half-way. */
+TEST(MissingBound, LeavesNoRadiusInAnEstimate)
+{
+  last_step<2>(scene_of(with(graded, {{"Error/Bound", "false"}})),
+               [](const StepReport<2> &step)
+               {
+                 const Solution<2> &solution = step.solution();
+                 CondensedElements<2> elements(step.scene, solution.tables);
+                 const Discretisation<2> discretisation(step.scene, solution.spaces, elements);
+                 const ErrorBound bound = ErrorBounds().compute(
+                     solution, discretisation,
+                     std::make_unique<LinearSolver>(discretisation.factor()), 0.);
+                 EXPECT_EQ(bound.flaw, "");
+                 EXPECT_EQ(bound.kind, BoundKind::estimate);
+                 EXPECT_EQ(bound.radius, bound.total);
+                 EXPECT_EQ(bound.theta, 0.);
+               });
 }
 
 /** A step without a bound after one that has it. */

@@ -54,8 +54,8 @@ public:
   double of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks = {}) const;
 
   /**
-   * Where theta is infinite although matrices do not show it, in words: contact ends where a support holds u_n and leaves u_t, or at
-   * another contact side that does; empty: nowhere.
+   * Where theta is infinite although matrices need not show it, in words: contact ends where a support holds u_n and leaves u_t, or at
+   * another contact side that does; mu_f chi jumps; empty: nowhere.
    */
   std::string unbounded_at(const SlipDirection &chi, const std::vector<bool> &sticks = {}) const;
 
@@ -67,8 +67,7 @@ private:
 
   const Solution<2> &solution;
   CouplingSpaces &spaces;
-  const std::unique_ptr<const Boundary> boundary;
-  const std::unique_ptr<ContactCompliance> raised; ///< null: the space is one of spaces
+  const std::unique_ptr<Boundary> boundary;
 };
 } // namespace hpvi
 

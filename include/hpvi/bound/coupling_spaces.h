@@ -6,6 +6,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
 #include <array>
 #include <list>
 #include <memory>
@@ -32,6 +33,8 @@ public:
 private:
   std::vector<double> L; ///< `C = L L'`, by columns, zeros included
   dealii::FullMatrix<double> Y;
+  mutable dealii::Vector<double> known_D; ///< the last one, with its eigenvalue
+  mutable double known_value = 0;
 };
 
 /** Compliance S of all multipliers of contact in a space. */
@@ -86,15 +89,17 @@ struct EdgePart
     return coarse_cell == other.coarse_cell && face == other.face;
   }
 
-  bool has_middle_of(const EdgePart &other) const
+  bool overlaps(const EdgePart &other) const
   {
-    return is_of_same_edge(other) && other.at(0.5) > begin && other.at(0.5) < end;
+    const double little = 1e-9 * std::min(length(), other.length());
+    return is_of_same_edge(other) && begin < other.end - little && other.begin < end - little;
   }
 
-  EdgePart half(const bool is_second) const
+  EdgePart between(const double s, const double t) const
   {
     EdgePart result(*this);
-    (is_second ? result.begin : result.end) = at(0.5);
+    result.begin = at(s);
+    result.end = at(t);
     return result;
   }
 
@@ -104,7 +109,7 @@ struct EdgePart
   }
 };
 
-/** mu_f chi along contact, by places: what each mesh may ask for. */
+/** mu_f chi along contact, by places on either side of it: what each mesh may ask for. */
 class FrictionAlong
 {
 public:
@@ -124,29 +129,33 @@ public:
   /** At @p s in [0,1] of a face. */
   Value on_face(unsigned int face, double s) const;
 
-  /** What it does on an edge whose halves, quarters, ... the faces are, or that is one of a face. */
+  /** What it does on an edge. */
   struct Variation
   {
     double height = 0;   ///< of mu_f chi: largest less smallest value
-    double shortest = 0; ///< length of the shortest face there
+    double shortest = 0; ///< length of the shortest face there, or of what is opposite to it
   };
   Variation along(const EdgePart &edge) const;
 
   double largest() const; ///< |mu_f chi|
 
-  /** Edges of the faces with mu_f chi that is not zero in the middle, and where that is. */
-  std::vector<std::pair<EdgePart, dealii::Point<2>>> acting() const;
+  /** A place of friction beside which none of the faces of another space has multipliers; nothing: there is none. */
+  std::optional<dealii::Point<2>> missed_by(const std::vector<ContactFace<2>> &others) const;
 
 private:
   static constexpr unsigned int n_samples = 5; ///< of a face, equidistant, ends included
 
-  /** A face. */
+  /** A face, or a part of one with what is opposite on the other body. */
   struct Part
   {
     EdgePart edge;
     unsigned int face;
+    double from, to; ///< s on the face at both ends of the edge
+    double share;    ///< of the face
     std::array<double, n_samples> samples;
   };
+  void add(Part part);
+  Value on_part(const Part &part, double place) const;
 
   const std::vector<ContactFace<2>> &faces;
   const SlipDirection &chi;
@@ -161,14 +170,13 @@ struct CouplingResolution
   unsigned int layers = 5; ///< of bisection towards ends of contact with friction
   double variation = 0.6;  ///< of mu_f chi along an edge, over the largest
   double shortest = 1.;    ///< edge that is bisected for it, over faces of the solution there
-  bool is_of_step = false; ///< degrees p + 1 on the mesh of the step, as between bodies
 };
 
 /**
- * Spaces in which theta is computed, with what is kept of them from step to step. theta is a number of the body, of
- * friction and of chi, and not of the mesh of a step. Where contact is that of one body on a foundation, the space has cells
- * of one degree on the coarse mesh of the scene, bisected towards ends of contact and where mu_f chi varies. As long
- * as that gives the same mesh, only chi changes. Between bodies it is the mesh of the step, with degrees p + 1.
+ * Spaces in which theta is computed, with what is kept of them from step to step. theta is a number of the bodies, of
+ * friction and of chi, and not of the mesh of a step. A space has cells of one degree on the coarse mesh of the scene, bisected
+ * towards ends of contact and where mu_f chi varies, on both sides of it. As long as that gives the same mesh, only chi changes.
+ * Which side of two bodies has the multipliers is asked there again.
  */
 class CouplingSpaces
 {
@@ -176,11 +184,8 @@ public:
   explicit CouplingSpaces(const CouplingResolution &resolution = {});
   ~CouplingSpaces();
 
-  /** The space for friction of @p solution; throws what Discretisation throws. Good until the next call but one. */
+  /** The space for friction of @p solution; throws what Discretisation throws. Good until four other ones have been asked for. */
   ContactCompliance &of(const Solution<2> &solution, const FrictionAlong &friction);
-
-  /** The space of degrees p + 1 on the mesh of @p solution; null: of() has a better one. */
-  std::unique_ptr<ContactCompliance> raised(const Solution<2> &solution);
 
 private:
   void begin(const Solution<2> &solution);
