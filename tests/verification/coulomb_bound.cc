@@ -724,11 +724,11 @@ TEST(CoulombBound, HoldsAgainstFinerRuns)
         {"strut", 4, BoundKind::estimate, 2.5, 0},
         {"punch-limited", 4, BoundKind::estimate, 2.5, 0},
         {"sleeve", 5, BoundKind::estimate, 2.5, 0},
-        {held_shoe.name, 5, BoundKind::coupling, 4., 0, held_shoe.changes},
+        {held_shoe.name, 5, BoundKind::coupling, 4., 6, held_shoe.changes},
         {turned_sleeve.name, 5, BoundKind::coupling, 3., 4, turned_sleeve.changes},
         {"askew", 5, BoundKind::zones, 3., 8},
         {"stack", 4, BoundKind::zones, 3., 25},
-        {held_bush.name, 4, BoundKind::coupling, 2.2, 0, held_bush.changes},
+        {held_bush.name, 4, BoundKind::coupling, 2.2, 12, held_bush.changes},
         // where what pulls begins the limit has a kink that no polynomial follows
         {"ssnv128", 6, BoundKind::estimate, 3.5, 0, {{"Boundary bottom/Contact", "bilateral"}}}})
   {
