@@ -271,7 +271,7 @@ DataError::DataError(const Solution<2> &solution, const EquilibratedStress &stre
     if (condition.has_traction() || condition.friction || condition.spring || edge.is_given)
       for (const StressEdge::Side &side : edge.sides) // friction between two bodies acts on both
         add(side, missed_traction(solution, stress, e),
-            !condition.friction && !condition.spring && !edge.is_given);
+            !condition.has_contact() && !condition.friction && !condition.spring && !edge.is_given);
     if (stress.has_rows())
       add(edge.sides[0], stress.missed_traction(cell, face), false);
     if (condition.has_displacement() || has_gap(solution, edge))

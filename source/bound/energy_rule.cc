@@ -113,11 +113,11 @@ double reciprocal_error(const CellMap<2> &map, const bool has_circumference, con
 }
 } // namespace
 
-EnergyDegrees degrees_of_work(const CellMap<2> &map, const unsigned int sum,
-                              const bool is_axisymmetric)
+EnergyDegrees degrees_of_square(const CellMap<2> &map, const unsigned int p,
+                                const bool is_axisymmetric)
 {
   const unsigned int g = map_degree(map);
-  return {(sum + 1) / 2 + (is_axisymmetric ? 2 * g : g), is_axisymmetric};
+  return {p + (is_axisymmetric ? 2 * g : g), is_axisymmetric};
 }
 
 EnergyRule::EnergyRule(const CellMap<2> &map, const EnergyDegrees &degrees,

@@ -57,6 +57,8 @@ std::string ResultantIntervals::flaws() const
     for (const Goal &goal : boundary.goals)
       if (const std::string flaw = flaw_of(goal); !flaw.empty())
         add(flaw);
+      else if (!std::isfinite(goal.norm + goal.rounding))
+        add("a cell is so flat that no rule encloses the energy on it");
       else if (goal.is_pressed)
         add("the pressure on " + scene.boundaries[boundary.boundary].name +
             " in a corner that is held, which has no upper bound");

@@ -32,10 +32,10 @@ WorkOnShapes stress_on_part(const Solution<2> &solution, const WorkOnPart &part,
   const CellMap<2> map = map_of<2>(part.a), other = map_of<2>(part.b);
   constexpr double enough = 1e-10; // of a number that may be known as well
   unsigned int n_gauss = (p + degree) / 2 + 1;
-  if (scene.is_axisymmetric())
+  if (!map.is_affine() || scene.is_axisymmetric())
     n_gauss = std::max(n_gauss, stiffness_points(scene, map, (p + degree) / 2));
-  const EnergyRule rule(map, degrees_of_work(map, p + degree, scene.is_axisymmetric()), n_gauss,
-                        enough);
+  const EnergyRule rule(map, degrees_of_square(map, std::max(p, degree), scene.is_axisymmetric()),
+                        n_gauss, enough);
   n_gauss = rule.n_gauss;
   const ShapeTable<2> &of_u = tables.in(part.in_a, p, n_gauss, solution.tables),
                       &of_w = tables.in(part.in_b, degree, n_gauss, solution.tables);

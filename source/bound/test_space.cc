@@ -181,7 +181,7 @@ double TestSpace::square_by_strains(const Vector<double> &w) const
     {
       const CellMap<2> map = map_of<2>(cell);
       const unsigned int p = degrees[cell->active_cell_index()];
-      rules.emplace_back(map, degrees_of_work(map, 2 * p, scene.is_axisymmetric()), n_gauss);
+      rules.emplace_back(map, degrees_of_square(map, p, scene.is_axisymmetric()), n_gauss);
     }
   double result = 0;
   for (const auto &cell : space.dof_handler().active_cell_iterators())

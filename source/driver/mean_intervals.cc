@@ -179,7 +179,8 @@ Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
                           bound.theta *
                               ((bound.stress + bound.oscillation) * (dual.error + dual.remainder) +
                                std::abs(work.value) + work.defect + missed_strain * norm);
-  return {mean.value, std::min(half_way, bound.total * norm) +
+  // the first argument where the other is no number
+  return {mean.value, std::min(bound.total * norm, half_way) +
                           (bound.data + correction_at_joints(*dual.scene, bound)) * norm +
                           1e-14 * std::abs(mean.value)};
 }

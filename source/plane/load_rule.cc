@@ -207,6 +207,9 @@ LoadRule<1> LoadRules<dim>::on_face(const Cell &cell, const unsigned int face, c
       functions.emplace_back([value, factor](const Point<1> &s)
                              { return factor(s[0]) * value(s); });
   }
+  if (!given.functions.empty() && dim == 2 && map.is_curved() && map.blends()[face])
+    functions.emplace_back([&map, face](const Point<1> &s) // a constant load is none there
+                           { return map.face_measure(face, point_on_face<dim>(face, s)); });
   LoadRule<1> result = rule_on<1>(rule_parts<1>(boxes, degree, functions, *tables), *tables);
   result.cuts = cuts;
   return result;

@@ -111,7 +111,10 @@ TEST(Intervals, HaveTheRadiusOfTheTheorem)
   for (const auto &[file, friction] : std::vector<std::pair<std::string, Overrides>>{
            {"han-6-12", {}},
            {"han-6-12-unilateral", {}},
-           {"han-6-12", {{"Boundary bottom/Friction bound", "4.5 + 2*sin(3*x)"}}}})
+           {"han-6-12", {{"Boundary bottom/Friction bound", "4.5 + 2*sin(3*x)"}}},
+           {"han-6-12-unilateral",
+            {{"Boundary bottom/Friction bound", ""},
+             {"Boundary bottom/Traction", "0; 3*sin(9*x)"}}}})
     AdaptiveSolver<2>(read_scene<2>("prm/" + file + ".prm",
                                     with({{"Adaptivity/Maximum steps", "5"},
                                           {"Boundary left/Traction", "1.5*(5 - y)*sin(y); -0.75"}},
@@ -550,6 +553,46 @@ TEST(Intervals, OfCurvedBodies)
     EXPECT_LE(std::abs(forces[k].centre - forces[5].centre),
               forces[k].half_width + forces[5].half_width);
   EXPECT_LT(forces[5].half_width, 0.5 * forces[1].half_width);
+  const Numbers adaptive =
+      numbers_of(scene_of(with(quarter, {{"Boundary inner/Displacement", "0; 0"},
+                                         {"Boundary outer/Displacement", "0.1; 0"},
+                                         {"Adaptivity/Method", "hpa3"}})));
+  for (const Interval &force : adaptive.intervals.at("outer.x"))
+    EXPECT_LE(std::abs(force.centre - forces[5].centre), force.half_width + forces[5].half_width);
+}
+
+/** A constant load on edges of degree 2, whose length has a root in it: what holds the body bears all of it. */
+TEST(Intervals, KnowLoadsOnCurves)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Shape", "ring sector"},
+                                   {"Geometry/Radii", "1, 2"},
+                                   {"Geometry/Subdivisions", "1, 1"},
+                                   {"Boundary start/Symmetry", "true"},
+                                   {"Boundary end/Symmetry", "true"},
+                                   {"Boundary outer/Traction", "0; -1"},
+                                   {"Error/Bound", "true"},
+                                   {"Adaptivity/Method", "pu"},
+                                   {"Adaptivity/Start degree", "2"},
+                                   {"Adaptivity/Maximum steps", "2"}});
+  unsigned int n = 0;
+  each_step<2>(scene,
+               [&](const StepReport<2> &step)
+               {
+                 const auto cell = step.field.dof_handler.begin_active();
+                 double length = 0;
+                 for (const unsigned int face : cell->face_indices())
+                   if (scene.boundaries[cell->face(face)->boundary_id()].name == "outer")
+                     length = map_of<2>(cell).face_area(face);
+                 for (const Resultant<2> &row : step.forces)
+                   if (row.name == "start")
+                   {
+                     ASSERT_TRUE(row.force[1].interval) << step.no_intervals;
+                     EXPECT_NEAR(row.force[1].interval->centre, length, 1e-9);
+                     EXPECT_LT(row.force[1].interval->half_width, 1e-9);
+                     ++n;
+                   }
+               });
+  EXPECT_EQ(n, 2U);
 }
 
 using AnyProbe = ::testing::TestWithParam<HeldProbe>;

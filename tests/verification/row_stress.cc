@@ -1066,7 +1066,7 @@ TEST(RowStresses, MeetTheResidualIdentity)
         absolute += w * s.norm() * slope.norm();
       }
     }
-    EXPECT_LE(std::abs(work), 1e-9 * absolute);
+    EXPECT_LE(std::abs(work), 1e-10 * absolute);
     EXPECT_GT(absolute, 0.);
   }
 }

@@ -15,8 +15,8 @@ struct EnergyDegrees
   bool has_circumference; ///< is w = 2 pi x among what the energy is divided by?
 };
 
-/** Of `det DF (sigma, eps)` of two displacements whose degrees sum to @p sum, as if it were a square. */
-EnergyDegrees degrees_of_work(const CellMap<2> &map, unsigned int sum, bool is_axisymmetric);
+/** Of `det DF sigma` of a displacement of degree @p p. */
+EnergyDegrees degrees_of_square(const CellMap<2> &map, unsigned int p, bool is_axisymmetric);
 
 /**
  * A rule of Gauss for energies `int P/D` of a cell, P a square of polynomials, D = det DF or x det DF. With a polynomial r of degree m and
@@ -33,7 +33,10 @@ struct EnergyRule
   EnergyRule(const CellMap<2> &map, const EnergyDegrees &degrees, unsigned int n_gauss,
              double enough = 1e-6);
 
-  /** Of int P/D where P is no square, what the rule may miss over int |P|/D: twice delta/(1 - delta). */
+  /**
+   * Of int (sigma, eps) of two displacements of these degrees, what the rule may miss over the product of both norms, 2 delta/(1 - delta):
+   * |P (1 - r D)/D| is integrated and summed, each at most delta times the product of both roots, of int and of sum.
+   */
   double missed() const
   {
     return factor - 1;
