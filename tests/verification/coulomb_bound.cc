@@ -551,7 +551,7 @@ TEST(Coupling, IsInfiniteWhereABodySlidesButDoesNotLift)
                      "slide but not lift"));
 }
 
-/** Another body that stands in the corner without touching gives it no room to lift. */
+/** Another body that stands in the corner without touching gives it no room to lift, though it has room itself. */
 TEST(Coupling, IsNotSavedByABodyBeside)
 {
   last_step<2>(scene_of({{"Body block/Lower corner", "0, 0"},
@@ -562,6 +562,8 @@ TEST(Coupling, IsNotSavedByABodyBeside)
                          {"Body post/Subdivisions", "2, 2"},
                          given::elastic("100", "0.3"),
                          {"Boundary post.left/Displacement", "0; 0"},
+                         {"Boundary post.top/Contact", "unilateral"},
+                         {"Boundary post.top/Friction coefficient", "0.3"},
                          {"Boundary block.left/Displacement", "free; 0"},
                          {"Boundary block.right/Displacement", "0.01; free"},
                          {"Boundary block.top/Pressure", "0.1"},
@@ -654,6 +656,46 @@ TEST(CoulombBound, LiftsWhatIsAgainstChi)
               }
             });
   }
+}
+
+/** About a corner beside which another body is glued both corners move, by less for the least norm than one that leaves a step in the glue. */
+TEST(CoulombBound, LiftsWhatIsGluedBeside)
+{
+  const auto lift = [](const std::string &law)
+  {
+    double result = 0;
+    last_step<2>(shipped_scene("glued", {{"Body base/Lower corner", "0, 0"},
+                                         {"Body base/Upper corner", "60, 30"},
+                                         {"Body base/Subdivisions", "4, 2"},
+                                         {"Body block/Lower corner", "60, 0"},
+                                         {"Body block/Upper corner", "120, 30"},
+                                         {"Body block/Subdivisions", "4, 2"},
+                                         {"Contact glue/Between", "block.left, base.right"},
+                                         {"Contact glue/Law", law},
+                                         {"Boundary base.top/Displacement", "0.05; -0.1"},
+                                         {"Boundary base.bottom/Displacement", ""},
+                                         {"Boundary base.bottom/Contact", "unilateral"},
+                                         {"Boundary base.bottom/Friction coefficient", "0.3"},
+                                         {"Adaptivity/Maximum steps", "1"},
+                                         {"Error/Bound", "false"}}),
+                 [&](const StepReport<2> &step)
+                 {
+                   CondensedElements<2> elements(step.scene, step.solution().tables);
+                   const FrictionOfStep now(step.solution(), elements);
+                   const std::vector<ContactFace<2>> &faces = now.law.contact_space.faces();
+                   std::vector<Bump> bumps(faces.size());
+                   for (unsigned int k = 0; k < faces.size(); ++k)
+                     for (unsigned int end = 0; end < 2; ++end)
+                       bumps[k].ends[end] = faces[k].segments.empty() &&
+                                            faces[k].point(end).distance({60, 0}) < 1e-9;
+                   ASSERT_NE(dynamic_cast<const MatchingContact *>(now.contact.get()), nullptr);
+                   result = now.contact->lift(bumps) / least_norm(now, bumps);
+                 });
+    return result;
+  };
+  const double glued = lift("tied"), touching = lift("unilateral");
+  EXPECT_GT(glued, 0.99);
+  EXPECT_LT(glued, 0.8 * touching);
 }
 
 /** What makes U admissible between two bodies is moved in the softer one. */
