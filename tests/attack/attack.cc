@@ -244,9 +244,9 @@ struct Score
     least = std::min(least, other.least);
   }
 
-  bool is_empty() const ///< are scenes enough to have a bound, and have none?
+  bool is_empty() const ///< are scenes enough to say something, and say nothing?
   {
-    return n_scenes >= 4 && n_bounds == 0;
+    return n_scenes >= 4 && n_ranges + n_compared == 0;
   }
 };
 
@@ -591,7 +591,7 @@ int main(int argc, char *argv[])
   bool is_empty = false;
   for (const auto &[kind, score] : attack.scores)
   {
-    std::cout << kind << ": " << score << (score.is_empty() ? "; NO BOUND" : "") << '\n';
+    std::cout << kind << ": " << score << (score.is_empty() ? "; NOTHING COMPARED" : "") << '\n';
     all.add(score);
     is_empty = is_empty || score.is_empty();
   }
