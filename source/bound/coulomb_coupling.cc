@@ -286,11 +286,12 @@ std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &f
                                             const SlipDirection &chi,
                                             const std::vector<bool> &sticks)
 {
-  constexpr double hair = 1e-7, round_off = 1e-9;
+  // Where mu_f has a root in it, its values near a vertex differ, and by less the nearer they are.
+  constexpr double hairs[] = {1e-7, 1e-11}, round_off = 1e-9;
   struct End
   {
     Tensor<1, 2> normal;
-    double value;
+    std::array<double, 2> values; ///< by each hair, of a straight line through two values
   };
   std::map<unsigned int, End> at_vertices;
   double largest = 0;
@@ -309,13 +310,18 @@ std::optional<Point<2>> jump_of_coefficient(const std::vector<ContactFace<2>> &f
         return faces[k].point(jump.s);
     for (unsigned int end = 0; end < 2; ++end)
     {
-      const double inwards = end == 0 ? hair : -hair;
-      const End own{faces[k].node_frame(end).normal, // its value by a straight line
-                    2 * value(k, end + inwards) - value(k, end + 2 * inwards)};
+      End own{faces[k].node_frame(end).normal, {}};
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        const double inwards = end == 0 ? hairs[i] : -hairs[i];
+        own.values[i] = 2 * value(k, end + inwards) - value(k, end + 2 * inwards);
+      }
       const auto [known, is_new] =
           at_vertices.emplace(faces[k].cell->face(faces[k].face_no)->vertex_index(end), own);
+      const double far = std::abs(known->second.values[0] - own.values[0]),
+                   near = std::abs(known->second.values[1] - own.values[1]);
       if (!is_new && (known->second.normal - own.normal).norm() < 1e-6 &&
-          std::abs(known->second.value - own.value) > round_off * largest)
+          near > std::max(round_off * largest, 0.5 * far))
         return faces[k].point(end);
     }
   }
