@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/disjoint_sets.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/parameter_file.h>
 #include <hpvi/base/text.h>
@@ -10,10 +11,11 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 
@@ -23,32 +25,6 @@ using namespace dealii;
 
 namespace
 {
-/** Sets joined where they have something in common. */
-class Unions
-{
-public:
-  explicit Unions(const unsigned int n) : parent(n)
-  {
-    std::iota(parent.begin(), parent.end(), 0);
-  }
-
-  unsigned int root(unsigned int k)
-  {
-    while (parent[k] != k)
-      k = parent[k] = parent[parent[k]];
-    return k;
-  }
-
-  void join(const unsigned int a, const unsigned int b)
-  {
-    const auto [low, high] = std::minmax({root(a), root(b)});
-    parent[high] = low;
-  }
-
-private:
-  std::vector<unsigned int> parent;
-};
-
 using Values = std::vector<std::pair<Point<2>, double>>;
 
 /** As "a", "a + b*x" or with y: the linear function through all of them; empty where there is none. */
@@ -115,14 +91,6 @@ std::string linear_function(const Values &values)
     return text(std::abs(begin) < 1e-12 * largest ? 0. : rounded(begin, 12)) + slopes;
   }
   return "";
-}
-
-std::string joined(const std::vector<std::string> &words, const std::string &between)
-{
-  std::string result;
-  for (const std::string &word : words)
-    result += (result.empty() ? "" : between) + word;
-  return result;
 }
 
 /** A stiff body that the deck holds in each of its nodes. */
@@ -230,18 +198,18 @@ private:
   /** Elements that edges connect. */
   void find_bodies()
   {
-    Unions unions(deck.elements.size());
+    DisjointSets sets(deck.elements.size());
     std::map<std::pair<unsigned int, unsigned int>, unsigned int> edges;
     for (unsigned int e = 0; e < deck.elements.size(); ++e)
       for (unsigned int k = 0; k < deck.elements[e].n_corners; ++k)
       {
         const auto ends = std::minmax({deck.elements[e].corner(k), deck.elements[e].corner(k + 1)});
-        unions.join(e, edges.emplace(ends, e).first->second);
+        sets.join(e, edges.emplace(ends, e).first->second);
       }
     std::map<unsigned int, unsigned int> numbers;
     for (unsigned int e = 0; e < deck.elements.size(); ++e)
     {
-      const auto [found, is_new] = numbers.emplace(unions.root(e), bodies.size());
+      const auto [found, is_new] = numbers.emplace(sets.root(e), bodies.size());
       if (is_new)
         bodies.emplace_back();
       Body &body = bodies[found->second];
@@ -308,20 +276,20 @@ private:
       for (const std::string &key : pair.surfaces)
         if (std::find(keys.begin(), keys.end(), key) == keys.end())
           keys.push_back(key);
-    Unions unions(keys.size());
+    DisjointSets sets(keys.size());
     for (unsigned int k = 0; k < keys.size(); ++k)
       for (const Deck::Face &face : deck.surfaces.at(keys[k]))
       {
         const auto [known, is_new] = contact_of.emplace(face, k);
         if (!is_new)
-          unions.join(known->second, k);
+          sets.join(known->second, k);
       }
     for (auto &[face, k] : contact_of)
-      k = unions.root(k) + 1;
+      k = sets.root(k) + 1;
     for (unsigned int k = 0; k < keys.size(); ++k)
     {
-      surface_number[keys[k]] = unions.root(k) + 1;
-      surface_name.emplace(unions.root(k) + 1, spelled(keys[k]));
+      surface_number[keys[k]] = sets.root(k) + 1;
+      surface_name.emplace(sets.root(k) + 1, spelled(keys[k]));
     }
   }
 
@@ -432,7 +400,7 @@ private:
     if (words.empty() || words[0] == "pressed")
       words = {set_of(side)};
     if (!words[0].empty())
-      return joined(words, " ");
+      return boost::algorithm::join(words, " ");
     return !side.pressure.empty()                                 ? "pressed"
            : side.supports[0].empty() && side.supports[1].empty() ? "loaded"
                                                                   : "held";
@@ -652,7 +620,7 @@ private:
       line("subsection Body " + body.name);
       set("Shape", "file");
       set("File", "mesh.msh");
-      set("Surfaces", joined(own, ", "));
+      set("Surfaces", boost::algorithm::join(own, ", "));
       if (own.size() == 1)
         set("Material", material_of(body));
       line("end");
@@ -976,7 +944,7 @@ private:
     const auto both = [](const std::array<std::vector<std::string>, 2> &terms)
     {
       const auto one = [](const std::vector<std::string> &some)
-      { return some.empty() ? "0" : joined(some, " + "); };
+      { return some.empty() ? "0" : boost::algorithm::join(some, " + "); };
       return one(terms[0]) + "; " + one(terms[1]);
     };
     if (gravity[0].empty() && gravity[1].empty() && force[0].empty() && force[1].empty())

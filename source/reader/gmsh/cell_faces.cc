@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/disjoint_sets.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/cell_faces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace hpvi
 {
@@ -80,22 +80,11 @@ unsigned int CellFaces::find(std::array<unsigned int, 4> corners) const
 
 unsigned int CellFaces::n_parts() const
 {
-  std::vector<unsigned int> parent(mesh.hexahedra.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](unsigned int c)
-  {
-    while (parent[c] != c)
-      c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  unsigned int n = mesh.hexahedra.size();
+  DisjointSets parts(mesh.hexahedra.size());
   for (const CellFace &face : faces)
-    if (!face.is_on_boundary() && root(face.cells[0]) != root(face.cells[1]))
-    {
-      parent[root(face.cells[0])] = root(face.cells[1]);
-      --n;
-    }
-  return n;
+    if (!face.is_on_boundary())
+      parts.join(face.cells[0], face.cells[1]);
+  return parts.n_sets();
 }
 
 /** Corners sorted by x: few of them lie beside a face. */

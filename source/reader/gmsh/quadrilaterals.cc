@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/disjoint_sets.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/text.h>
 #include <hpvi/reader/gmsh/quadratic_edge.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace hpvi
@@ -210,23 +210,16 @@ private:
   /** Of whole meshes that hang together by edges. */
   std::vector<bool> cells_to_cut() const
   {
-    std::vector<unsigned int> parent(file.elements.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](unsigned int e)
-    {
-      while (parent[e] != e)
-        e = parent[e] = parent[parent[e]];
-      return e;
-    };
+    DisjointSets meshes(file.elements.size());
     for (const auto &[ends, beside] : sides)
       for (const unsigned int e : beside)
-        parent[root(e)] = root(beside.front());
-    std::vector<bool> is_bad(parent.size(), false), result(parent.size(), false);
+        meshes.join(e, beside.front());
+    std::vector<bool> is_bad(file.elements.size(), false), result(file.elements.size(), false);
     for (const unsigned int e : cells)
       if (n_corners(file.elements[e]) == 3 || flat_corner(file.elements[e]) < 4)
-        is_bad[root(e)] = true;
+        is_bad[meshes.root(e)] = true;
     for (const unsigned int e : cells)
-      result[e] = is_bad[root(e)];
+      result[e] = is_bad[meshes.root(e)];
     return result;
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <hpvi/base/disjoint_sets.h>
 #include <hpvi/base/formatting.h>
 #include <hpvi/base/input_error.h>
 #include <hpvi/base/text.h>
@@ -15,7 +16,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <numeric>
 
 namespace hpvi
 {
@@ -50,25 +50,14 @@ std::map<Ends, unsigned int> cells_by_edge(const CoarseMesh &mesh)
 /** How many parts the cells make that no edge connects. */
 unsigned int n_parts(const CoarseMesh &mesh)
 {
-  std::vector<unsigned int> parent(mesh.cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](unsigned int c)
-  {
-    while (parent[c] != c)
-      c = parent[c] = parent[parent[c]];
-    return c;
-  };
-  unsigned int n = mesh.cells.size();
+  DisjointSets parts(mesh.cells.size());
   const std::map<Ends, unsigned int> cells = cells_by_edge(mesh);
   for (const auto &[ends, cell] : cells)
-    if (const auto other = cells.find({{ends[1], ends[0]}});
-        other != cells.end() && root(cell) != root(other->second))
-    {
-      parent[root(cell)] = root(other->second);
-      --n;
-    }
-  return n;
+    if (const auto other = cells.find({{ends[1], ends[0]}}); other != cells.end())
+      parts.join(cell, other->second);
+  return parts.n_sets();
 }
+
 /** As its entry `Curve` says. */
 void bend(const Parameters &parameters, const std::string &name,
           const std::vector<unsigned int> &edges, CoarseMesh &mesh)
