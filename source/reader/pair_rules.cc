@@ -3,12 +3,41 @@
 #include <hpvi/base/tolerances.h>
 #include <hpvi/reader/pair_rules.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace hpvi
 {
 using namespace dealii;
+
+std::array<std::string, 2> read_between(const Parameters &parameters, const std::string &section)
+{
+  const std::vector<std::string> sides =
+      Utilities::split_string_list(parameters.text(section, "Between"), ',');
+  if (sides.size() != 2)
+    parameters.reject(section, "Between",
+                      "names no two sides; give BODY.side, BODY.side, or automatic");
+  return {{sides[0], sides[1]}};
+}
+
+std::optional<unsigned int> read_slave(const Parameters &parameters, const std::string &section,
+                                       const std::array<std::string, 2> &sides,
+                                       const bool of_one_body)
+{
+  if (of_one_body)
+    parameters.reject(section, "Between",
+                      "names sides of one body; a body does not touch itself, name sides of two");
+  const std::string slave = parameters.text(section, "Slave");
+  if (slave == "automatic")
+    return std::nullopt;
+  const auto found = std::find(sides.begin(), sides.end(), slave);
+  if (found == sides.end())
+    parameters.reject(section, "Slave",
+                      "is none of the two sides; give automatic or one of Between");
+  return found - sides.begin();
+}
 
 void reject_overlap(const Parameters &parameters, const std::string &section, const double depth,
                     const std::string &place)

@@ -9,8 +9,6 @@
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/edge_projection.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -21,7 +19,6 @@ using namespace dealii;
 
 namespace
 {
-
 NamedSide side_called(const Parameters &parameters, const std::string &section,
                       const std::string &name, const std::vector<NamedSide> &sides,
                       const std::vector<Scene<2>> &singles)
@@ -150,25 +147,11 @@ PairSides read_pair_sides(const Parameters &parameters, const std::string &secti
                           const std::string &name, const std::vector<NamedSide> &all,
                           std::vector<Scene<2>> &singles)
 {
-  const std::vector<std::string> sides =
-      Utilities::split_string_list(parameters.text(section, "Between"), ',');
-  if (sides.size() != 2)
-    parameters.reject(section, "Between",
-                      "names no two sides; give BODY.side, BODY.side, or automatic");
+  const std::array<std::string, 2> sides = read_between(parameters, section);
   PairSides pair{name, section, {}, {}, {}, {}};
   for (const unsigned int k : {0, 1})
     pair.sides[k] = side_called(parameters, section, sides[k], all, singles);
-  if (pair.sides[0].body == pair.sides[1].body)
-    parameters.reject(section, "Between",
-                      "names sides of one body; a body does not touch itself, name sides of two");
-  if (const std::string slave = parameters.text(section, "Slave"); slave != "automatic")
-  {
-    const auto found = std::find(sides.begin(), sides.end(), slave);
-    if (found == sides.end())
-      parameters.reject(section, "Slave",
-                        "is none of the two sides; give automatic or one of Between");
-    pair.slave = found - sides.begin();
-  }
+  pair.slave = read_slave(parameters, section, sides, pair.sides[0].body == pair.sides[1].body);
   const auto side = [&](const unsigned int k)
   { return side_of(pair.sides[k], singles[pair.sides[k].body].geometry); };
   const double size = std::max(singles[pair.sides[0].body].geometry.diameter(),

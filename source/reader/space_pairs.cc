@@ -12,8 +12,6 @@
 #include <hpvi/scene/faces_across.h>
 #include <hpvi/scene/hexahedral_mesh.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -307,11 +305,7 @@ SpacePair read_space_pair(const Parameters &parameters, const std::string &secti
                           const std::string &name, const UserNames &names,
                           std::vector<Scene<3>> &singles)
 {
-  const std::vector<std::string> sides =
-      Utilities::split_string_list(parameters.text(section, "Between"), ',');
-  if (sides.size() != 2)
-    parameters.reject(section, "Between",
-                      "names no two sides; give BODY.side, BODY.side, or automatic");
+  const std::array<std::string, 2> sides = read_between(parameters, section);
   SpacePair pair{name, section, {}, {}, {}, {}, {}, {}, std::nullopt};
   for (const unsigned int k : {0, 1})
   {
@@ -321,17 +315,7 @@ SpacePair read_space_pair(const Parameters &parameters, const std::string &secti
     pair.called[k] = sides[k];
     pair.part[k] = side.where;
   }
-  if (pair.bodies[0] == pair.bodies[1])
-    parameters.reject(section, "Between",
-                      "names sides of one body; a body does not touch itself, name sides of two");
-  if (const std::string slave = parameters.text(section, "Slave"); slave != "automatic")
-  {
-    const auto found = std::find(sides.begin(), sides.end(), slave);
-    if (found == sides.end())
-      parameters.reject(section, "Slave",
-                        "is none of the two sides; give automatic or one of Between");
-    pair.slave = found - sides.begin();
-  }
+  pair.slave = read_slave(parameters, section, sides, pair.bodies[0] == pair.bodies[1]);
   for (const unsigned int k : {0, 1})
     if (Scene<3> &body = singles[pair.bodies[k]]; body.geometry.shape == Shape::box)
       cut_box(body, pair.sides[k], faces_of(pair, 1 - k, singles).named, section + "/Between");

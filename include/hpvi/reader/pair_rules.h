@@ -11,6 +11,13 @@
 
 namespace hpvi
 {
+/** The two sides that `Between` names. */
+std::array<std::string, 2> read_between(const Parameters &parameters, const std::string &section);
+
+/** Which of @p sides is `Slave`; null: automatic. Sides @p of_one_body are no pair. */
+std::optional<unsigned int> read_slave(const Parameters &parameters, const std::string &section,
+                                       const std::array<std::string, 2> &sides, bool of_one_body);
+
 /** The number of `Closed within` of a pair of bodies of @p size, and a hair for round-off of distances [length]. */
 double read_closed_within(const Parameters &parameters, const std::string &section, double size);
 
