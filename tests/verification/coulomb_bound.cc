@@ -1021,7 +1021,7 @@ TEST(CoulombBound, DISABLED_Cost)
     work();
     return double(std::clock() - begin) / CLOCKS_PER_SEC;
   };
-  for (const std::string name : {"ssnv128", "punch-friction", "brake-pad"})
+  for (const std::string name : {"ssnv128", "punch-friction", "brake-pad", "stack"})
   {
     const Scene<2> scene = shipped_scene(name, {{"Error/Bound", "false"}});
     ErrorBounds bounds;
