@@ -4,6 +4,7 @@
 
 #include <hpvi/bound/dual_scene.h>
 #include <hpvi/bound/resultant_intervals.h>
+#include <hpvi/bound/test_motion.h>
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
 
@@ -559,6 +560,32 @@ TEST(Intervals, OfCurvedBodies)
                                          {"Adaptivity/Method", "hpa3"}})));
   for (const Interval &force : adaptive.intervals.at("outer.x"))
     EXPECT_LE(std::abs(force.centre - forces[5].centre), force.half_width + forces[5].half_width);
+}
+
+/** Along a curve in contact both components are prescribed, for the normal between nodes is none of w; only moments turn along it. */
+TEST(Intervals, HoldAllOfACurveInContact)
+{
+  const Scene<2> scene = scene_of({{"Geometry/Shape", "ring sector"},
+                                   {"Geometry/Radii", "1, 2"},
+                                   {"Boundary inner/Displacement", "0; 0"},
+                                   {"Boundary outer/Contact", "unilateral"}});
+  const std::vector<Side<2>> sides = sides_of(scene);
+  unsigned int outer = 0;
+  while (scene.boundaries[outer].name != "outer")
+    ++outer;
+  const TestMotion x(scene, sides, outer, BoundaryMotion::x),
+      moment(scene, sides, outer, BoundaryMotion::moment),
+      normal(scene, sides, outer, BoundaryMotion::normal);
+  const auto held = x.conditions(outer, {std::sqrt(2.), std::sqrt(2.)}, {});
+  ASSERT_EQ(held.size(), 2U);
+  for (unsigned int c = 0; c < 2; ++c)
+  {
+    EXPECT_EQ(held[c].direction[c], 1.);
+    EXPECT_EQ(held[c].value, c == 0 ? 1. : 0.);
+  }
+  EXPECT_FALSE(x.turns_along_curve());
+  EXPECT_TRUE(moment.turns_along_curve());
+  EXPECT_EQ(normal.flaw(), "forces along the normal of outer, which has more than one");
 }
 
 /** A constant load on edges of degree 2, whose length has a root in it: what holds the body bears all of it. */

@@ -453,6 +453,7 @@ TEST(EnergyRule, CountsNoLessThanAll)
     const double exact = -std::log(small) / (1 - small);
     EXPECT_LT(sum, exact * (1 - 1e-14));
     EXPECT_GE(sum * rule.factor, exact);
+    EXPECT_LE(exact - sum, rule.missed() * sum);
     EXPECT_LE(rule.factor, small > 0.1 ? 1 + 1e-6 : small > 0.01 ? 1.2 : 1e300);
   }
   const CellMap<2> square(shapes()[0]);
