@@ -92,12 +92,14 @@ public:
 
 private:
   void set_inside(unsigned int face);
+  const std::vector<double> &samples(unsigned int n);
 
   const std::vector<ContactFace<2>> &faces;
   const AdmissibleContact &contact;
   const SlipDirection &chi;
   double round_off; ///< [length]
   std::vector<Bump> all;
+  std::map<unsigned int, std::vector<double>> known_samples;
 };
 
 double Excess::operator()(const unsigned int face, const double s) const
@@ -134,17 +136,23 @@ Excess::Excess(const Solution<2> &solution, const AdmissibleContact &contact,
   }
 }
 
+/** In (0,1), dense at both ends. */
+const std::vector<double> &Excess::samples(const unsigned int n)
+{
+  std::vector<double> &result = known_samples[n];
+  for (unsigned int i = 0; result.size() < n; ++i)
+    result.push_back(0.5 * (1. - std::cos((i + 0.5) * numbers::PI / n)));
+  return result;
+}
+
 void Excess::set_inside(const unsigned int k)
 {
-  const unsigned int m = 4 * (faces[k].degree + 9);
   const std::vector<double> kinks = contact.kinks(k);
   double inside = 0;
   for (unsigned int piece = 0; piece + 1 < kinks.size(); ++piece)
-    for (unsigned int i = 0; i < m; ++i)
+    for (const double place : samples(4 * (faces[k].degree + 9)))
     {
-      const double s = kinks[piece] + (kinks[piece + 1] - kinks[piece]) * 0.5 *
-                                          (1. - std::cos((i + 0.5) * numbers::PI / m)),
-                   M = (*this)(k, s);
+      const double s = kinks[piece] + (kinks[piece + 1] - kinks[piece]) * place, M = (*this)(k, s);
       if (M > 0.)
         inside = std::max(inside, (reserve * M - all[k](s)) / (s * (1. - s)));
     }

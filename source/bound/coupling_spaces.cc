@@ -421,8 +421,11 @@ std::vector<EdgePart> CouplingSpaces::wanted_edges(const FrictionAlong &friction
     if (!is_long && level < most_bisections)
     {
       const FrictionAlong::Variation found = friction.along(edge);
-      is_long =
-          found.height > most && edge.length() > (1 + 1e-6) * resolution.shortest * found.shortest;
+      double shortest = resolution.shortest * found.shortest;
+      // By whole threes of bisections: steps that bisect once more have the same space. Between bodies it is a new one anyway.
+      if (!scene->has_pairs())
+        shortest = std::exp2(3 * std::floor(std::log2(1.001 * shortest) / 3));
+      is_long = found.height > most && edge.length() > 1.001 * shortest;
     }
     if (!is_long)
       return result.push_back(edge);

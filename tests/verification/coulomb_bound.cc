@@ -477,10 +477,11 @@ TEST(Coupling, KeepsItsSpaceWhileOnlyChiChanges)
                   .overlaps(EdgePart(shortest->cell, shortest->face_no)))
           {
             ++n_there;
-            EXPECT_NEAR(face.length, shortest->length, 1e-9 * face.length);
+            EXPECT_LE(face.length, (1 + 1e-9) * shortest->length); // by whole threes of bisections
+            EXPECT_GE(face.length, 0.249 * shortest->length);
             least = std::min(least, face.length);
           }
-        EXPECT_EQ(n_there, 1u);
+        EXPECT_TRUE(n_there == 1 || n_there == 2 || n_there == 4) << n_there;
       });
   EXPECT_LT(least, 9.); // 10 on the coarse mesh
 }
