@@ -144,6 +144,7 @@ void TestSpace::assemble()
       [&](const auto &cell, const auto &dofs)
       {
         const CellMap<2> map = map_of<2>(cell);
+        is_exact = is_exact && map.is_affine() && !scene.is_axisymmetric();
         const unsigned int p = degrees[cell->active_cell_index()];
         std::shared_ptr<const FullMatrix<double>> own;
         auto &matrix =
@@ -169,50 +170,14 @@ double TestSpace::norm(const Vector<double> &w) const
     square += w[i] * Kw[i];
     scale += w[i] * K.diag_element(i) * w[i];
   }
-  const bool is_curved = scene.geometry.has_curves(); // K is no more than near then
-  return std::sqrt(is_curved || square < nearly_rigid * scale ? square_by_strains(w) : square);
+  // where the rule of K is exact for no energy, K is no more than near
+  return std::sqrt(!is_exact || square < nearly_rigid * scale ? square_by_strains(w) : square);
 }
 
 double TestSpace::square_by_strains(const Vector<double> &w) const
 {
-  constexpr unsigned int n_gauss = 8; // of what is small: more than enough
-  if (rules.empty())
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-    {
-      const CellMap<2> map = map_of<2>(cell);
-      const unsigned int p = degrees[cell->active_cell_index()];
-      rules.emplace_back(map, degrees_of_square(map, p, scene.is_axisymmetric()), n_gauss);
-    }
-  double result = 0;
-  for (const auto &cell : space.dof_handler().active_cell_iterators())
-  {
-    const CellMap<2> map = map_of<2>(cell);
-    const unsigned int p = degrees[cell->active_cell_index()];
-    const LocalNumbering &numbering = lender->tables->numbering(p);
-    const EnergyRule &rule = rules[cell->active_cell_index()];
-    const ShapeTable<2> &table = lender->tables->gradients(p, rule.n_gauss);
-    double square = 0;
-    const auto dofs = space.cell_dofs(cell->active_cell_index());
-    std::vector<double> local(dofs.size());
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      local[numbering.component[i] * table.n_shapes + numbering.shape[i]] = w[dofs[i]];
-    const std::vector<double> derivatives = evaluate(table.derivatives, local),
-                              values = scene.is_axisymmetric() ? evaluate(table.values, local)
-                                                               : std::vector<double>();
-    const HookesLaw<2> law(scene.material_of(cell));
-    for (unsigned int q = 0; q < table.points.size(); ++q)
-    {
-      const Tensor<2, 2> J = map.jacobian(table.points[q]);
-      const SymmetricTensor<2, 2> strain = symmetrize(physical_gradient<2>(
-          derivatives, q * table.rows_per_point, table.derivatives.m(), invert(J)));
-      const Point<2> x = map.point(table.points[q]);
-      square +=
-          table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
-          law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
-    }
-    result += rule.factor * square;
-  }
-  return result;
+  const std::vector<double> energies = largest_energies(scene, space, *lender->tables, w);
+  return std::accumulate(energies.begin(), energies.end(), 0.);
 }
 
 // @sect3{What is held}

@@ -15,6 +15,7 @@
 #include <hpvi/driver/friction_check.h>
 #include <hpvi/driver/limits.h>
 #include <hpvi/driver/marking.h>
+#include <hpvi/driver/reduced_backend.h>
 #include <hpvi/driver/strides.h>
 #include <hpvi/driver/thickness.h>
 #include <hpvi/driver/threads.h>
@@ -131,8 +132,14 @@ std::vector<double> of_all_cells(const ErrorEstimate &estimate, const Field<dim>
 template <int dim>
 AdaptiveSolver<dim>::AdaptiveSolver(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> of_path)
     : scene(scene), backend(std::move(of_path)), true_error(scene),
-      mean_intervals(scene, [](const Scene<2> &dual, const auto &finished_step)
-                     { AdaptiveSolver<2>(dual).run(finished_step); })
+      mean_intervals(scene,
+                     [](const Scene<2> &dual, const Solution<2> *mesh_of, const auto &finished_step)
+                     {
+                       AdaptiveSolver<2>(dual, mesh_of ? std::make_unique<ReducedBackend<2>>(
+                                                             checked(dual), *mesh_of)
+                                                       : checked_backend(dual, MPI_COMM_SELF))
+                           .run(finished_step);
+                     })
 {
   collectively(backend->communicator, [&]() { data = data_scale(scene); });
 }

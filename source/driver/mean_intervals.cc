@@ -6,9 +6,12 @@
 #include <hpvi/bound/stress_work.h>
 #include <hpvi/driver/mean_intervals.h>
 #include <hpvi/plane/initial_stress.h>
+#include <hpvi/plane/springs.h>
+#include <hpvi/results/probe_rule.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace hpvi
@@ -54,6 +57,27 @@ bool is_zero(const Scene<2> &dual)
 double correction_at_joints(const Scene<2> &of_mean, const ErrorBound &bound)
 {
   return of_mean.has_pairs() ? std::sqrt(std::max(0., sum(bound.moved))) : 0.;
+}
+
+/** |z_N|_a, or a little more where rules of Gauss do not give it. */
+double largest_norm(const Solution<2> &z)
+{
+  const std::vector<double> energies =
+      largest_energies(z.scene, z.displacement_space, z.tables, z.u);
+  Vector<double> forces(z.u.size());
+  return std::sqrt(
+      std::accumulate(energies.begin(), energies.end(), 0.) +
+      add_spring_forces(spring_faces(z.scene, z.displacement_space, z.tables), z.u, forces));
+}
+
+/** Does the disc of a probe reach into cells with curved edges, on which its rule is no more than near? */
+bool reaches_curves(const Probe<2> &probe, const StepReport<2> &step)
+{
+  for (const WeightedPoints<2> &part :
+       probe_rule(probe, step.scene, step.field.dof_handler, step.field.tables))
+    if (map_of<2>(part.cell).is_curved())
+      return true;
+  return false;
 }
 
 /** Is w zero in all cells where the probe is? */
@@ -106,7 +130,8 @@ MeanIntervals<dim>::MeanIntervals(const Scene<dim> &scene, Solve solve)
 //
 template <>
 const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
-                                                     const unsigned int component)
+                                                     const unsigned int component,
+                                                     const StepReport<2> &step)
 {
   const auto [place, is_new] =
       duals.emplace(std::array<unsigned int, 2>{{number, component}}, Dual());
@@ -114,7 +139,11 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
   if (!is_new)
     return result;
   const Probe<2> &probe = scene.probes[number];
-  result.scene = std::make_shared<const Scene<2>>(dual_scene(scene, probe, component));
+  std::map<types::boundary_id, double> meshed;
+  for (const types::boundary_id id : probe.on)
+    if (scene.geometry.has_curves())
+      meshed[id] = boundary_size(id, scene, step.field.dof_handler, step.field.tables);
+  result.scene = std::make_shared<const Scene<2>>(dual_scene(scene, probe, component, meshed));
   if (is_zero(*result.scene))
     return result;
   for (const types::boundary_id id : probe.on)
@@ -127,23 +156,24 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
     return result;
   try
   {
-    solve(*result.scene,
-          [&](const StepReport<2> &step)
+    const Solution<2> solution = step.solution();
+    solve(*result.scene, scene.geometry.has_curves() ? &solution : nullptr,
+          [&](const StepReport<2> &of_dual)
           {
-            result.why = step.no_bound;
-            if (!step.bound)
+            result.why = of_dual.no_bound;
+            if (!of_dual.bound)
               return;
-            if (!sees_all(step.solution(), probe, component))
+            if (!sees_all(of_dual.solution(), probe, component))
             {
               result.why = "the disc is too small beside the body";
               return;
             }
-            result.z = std::make_shared<const Solution<2>>(step.solution());
+            result.z = std::make_shared<const Solution<2>>(of_dual.solution());
+            const double norm = largest_norm(*result.z);
             // z_N is orthogonal to its error where it is in V.
-            result.norm = result.scene->has_pairs()
-                              ? step.energies.norm + step.bound->total
-                              : std::hypot(step.energies.norm, step.bound->total);
-            result.error = step.bound->total;
+            result.norm = result.scene->has_pairs() ? norm + of_dual.bound->total
+                                                    : std::hypot(norm, of_dual.bound->total);
+            result.error = of_dual.bound->total;
           });
   }
   catch (const InputError &)
@@ -171,17 +201,21 @@ Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
     return {mean.value, 1e-14 * std::abs(mean.value)};
   const ErrorBound &bound = *step.bound;
   const Solution<2> solution = step.solution(), &z = *dual.z;
-  const StressWork work = work_of_difference(solution, bound, z, tables);
-  const double norm = dual.norm + dual.remainder,
-               missed_strain = initial_stress_error(scene, z.displacement_space,
-                                                    *solution.spaces->loads, z.tables),
-               half_way = bound.radius * norm +
-                          bound.theta *
-                              ((bound.stress + bound.oscillation) * (dual.error + dual.remainder) +
-                               std::abs(work.value) + work.defect + missed_strain * norm);
-  // the first argument where the other is no number
-  return {mean.value, std::min(bound.total * norm, half_way) +
-                          (bound.data + correction_at_joints(*dual.scene, bound)) * norm +
+  const double norm = dual.norm + dual.remainder;
+  double width = bound.total * norm;
+  if (!scene.geometry.has_curves()) // along curves tractions do not work on straight edges
+  {
+    const StressWork work = work_of_difference(solution, bound, z, tables);
+    const double missed_strain = initial_stress_error(scene, z.displacement_space,
+                                                      *solution.spaces->loads, z.tables),
+                 half_way =
+                     bound.radius * norm +
+                     bound.theta *
+                         ((bound.stress + bound.oscillation) * (dual.error + dual.remainder) +
+                          std::abs(work.value) + work.defect + missed_strain * norm);
+    width = std::min(width, half_way); // the first argument where the other is no number
+  }
+  return {mean.value, width + (bound.data + correction_at_joints(*dual.scene, bound)) * norm +
                           1e-14 * std::abs(mean.value)};
 }
 
@@ -189,19 +223,21 @@ template <>
 void MeanIntervals<2>::set(StepReport<2> &step)
 {
   std::string &why = step.no_intervals;
+  if (scene.geometry.has_curves())
+    duals.clear();
   for (ProbeValue<2> &value : step.probes)
   {
     const Probe<2> &probe = scene.probes[value.probe];
     if (!probe.is_mean())
       continue;
     std::string flaw;
-    if (scene.geometry.has_curves()) // displacements of another mesh are those of another body
-      flaw = "curved edges change with the degrees of their cells";
-    else if (scene.is_axisymmetric() && probe.kind == ProbeKind::disc)
+    if (scene.is_axisymmetric() && probe.kind == ProbeKind::disc)
       flaw = "a mean over a ring has the weight of the radius";
+    else if (probe.kind == ProbeKind::disc && reaches_curves(probe, step))
+      flaw = "the disc reaches into cells with curved edges";
     for (unsigned int c = 0; c < 2 && flaw.empty(); ++c)
     {
-      const Dual &of_mean = dual(value.probe, c);
+      const Dual &of_mean = dual(value.probe, c, step);
       if (!of_mean.why.empty())
         flaw = of_mean.why;
       else if (!is_away_from_lifts(probe, step))

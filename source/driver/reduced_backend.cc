@@ -167,6 +167,15 @@ ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene)
 }
 
 template <int dim>
+ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, const Solution<dim> &other)
+    : ReducedBackend(scene, own_copy(scene), std::make_shared<Kept>(scene, other.spaces->tables))
+{
+  mesh = {other.spaces, &other.displacement_space.triangulation()};
+  cell_degrees = other.displacement_space.degrees();
+  look_at_loads(1);
+}
+
+template <int dim>
 ReducedBackend<dim>::ReducedBackend(const Scene<dim> &scene, ReducedBackend &last,
                                     const PastSlip<dim> &past)
     : ReducedBackend(scene, own_copy(scene, last.scene),

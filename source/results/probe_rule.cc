@@ -3,6 +3,7 @@
 #include <hpvi/plane/cell_map.h>
 #include <hpvi/plane/disc_rule.h>
 #include <hpvi/plane/given_data.h>
+#include <hpvi/plane/load_quadrature.h>
 #include <hpvi/results/field.h>
 #include <hpvi/results/probe_rule.h>
 
@@ -120,7 +121,12 @@ Quadrature<1> face_rule(const DoFHandler<2>::active_cell_iterator &cell, const u
                         const CellMap<2> &map, const Scene<2> &scene, const ShapeTables<2> &tables,
                         const unsigned int n_points)
 {
-  const QGauss<1> gauss(n_points);
+  const auto measure = [&](const Point<1> &s)
+  { return map.face_measure(face, point_on_face<2>(face, s)); };
+  const QGauss<1> gauss(
+      map.is_curved() && map.blends()[face] // |x'| is no polynomial
+          ? rule_parts<1>({create_unit_bounding_box<1>()}, n_points - 2, {measure}, tables)[0].n
+          : n_points);
   std::vector<Point<1>> points;
   std::vector<double> weights;
   const unsigned int across = face / 2, along = 1 - across;
@@ -162,6 +168,17 @@ ProbeRule<dim> boundary_rule(const std::vector<types::boundary_id> &on, const Sc
 } // namespace
 
 template <int dim>
+double boundary_size(const types::boundary_id id, const Scene<dim> &scene,
+                     const DoFHandler<dim> &dof_handler, const ShapeTables<dim> &tables)
+{
+  double result = 0;
+  for (const WeightedPoints<dim> &part : boundary_rule<dim>({id}, scene, dof_handler, tables))
+    for (const double weight : part.weights)
+      result += weight;
+  return Utilities::MPI::sum(result, dof_handler.get_communicator());
+}
+
+template <int dim>
 ProbeRule<dim> probe_rule(const Probe<dim> &probe, const Scene<dim> &scene,
                           const DoFHandler<dim> &dof_handler, const ShapeTables<dim> &tables)
 {
@@ -181,6 +198,8 @@ ProbeRule<dim> probe_rule(const Probe<dim> &probe, const Scene<dim> &scene,
   return rule;
 }
 
+template double boundary_size(types::boundary_id, const Scene<2> &, const DoFHandler<2> &,
+                              const ShapeTables<2> &);
 template ProbeRule<2> probe_rule(const Probe<2> &, const Scene<2> &, const DoFHandler<2> &,
                                  const ShapeTables<2> &);
 template ProbeRule<3> probe_rule(const Probe<3> &, const Scene<3> &, const DoFHandler<3> &,

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace
 {
@@ -560,6 +561,72 @@ TEST(Intervals, OfCurvedBodies)
                                          {"Adaptivity/Method", "hpa3"}})));
   for (const Interval &force : adaptive.intervals.at("outer.x"))
     EXPECT_LE(std::abs(force.centre - forces[5].centre), force.half_width + forces[5].half_width);
+}
+
+/**
+ * Means of each step's own edges: of Lame's ring and sphere under pressure inside. A disc has one where cells are straight: that of a far
+ * finer run.
+ */
+TEST(Intervals, HoldMeansAlongCurves)
+{
+  const auto means = [](const Overrides &others)
+  {
+    return numbers_of(scene_of(with({{"Geometry/Shape", "ring sector"},
+                                     {"Geometry/Radii", "1, 2"},
+                                     {"Geometry/Subdivisions", "1, 2"},
+                                     given::elastic("10", "0.3"),
+                                     {"Boundary inner/Pressure", "1"},
+                                     {"Boundary start/Symmetry", "true"},
+                                     {"Probe in/On", "inner"},
+                                     {"Probe out/On", "outer"},
+                                     {"Error/Bound", "true"},
+                                     {"Adaptivity/Method", "pu"},
+                                     {"Adaptivity/Start degree", "2"},
+                                     {"Adaptivity/Maximum steps", "5"}},
+                                    others)));
+  };
+  const Numbers of_ring = means({{"Boundary end/Symmetry", "true"}}),
+                of_sphere = means({{"Material/Plane", "axisymmetric"}});
+  const double in = 0.13 / 3 * 4.4, out = 0.13 / 3 * 2.8, of_two = 0.03; // u_r
+  for (const auto &[numbers, name, exact] :
+       std::vector<std::tuple<const Numbers *, std::string, double>>{
+           {&of_ring, "in.x", in * 2 / numbers::PI},
+           {&of_ring, "in.y", in * 2 / numbers::PI},
+           {&of_ring, "out.y", out * 2 / numbers::PI},
+           {&of_sphere, "out.x", of_two * numbers::PI / 4},
+           {&of_sphere, "out.y", of_two / 2}})
+  {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(numbers->none, "");
+    const std::vector<Interval> &intervals = numbers->intervals.at(name);
+    ASSERT_EQ(intervals.size(), 5U);
+    for (unsigned int k = 1; k < 5; ++k)
+      EXPECT_LE(std::abs(intervals[k].centre - exact), intervals[k].half_width);
+    EXPECT_LT(intervals[4].half_width, 4e-3 * exact);
+  }
+  const auto in_plate = [](const std::string &at)
+  {
+    return numbers_of(scene_of({{"Geometry/Shape", "plate with hole"},
+                                {"Geometry/Lower corner", "0, 0"},
+                                {"Geometry/Upper corner", "4, 4"},
+                                {"Geometry/Centre", "0, 0"},
+                                {"Geometry/Radius", "1"},
+                                {"Geometry/Part", "quarter"},
+                                {"Geometry/Subdivisions", "2, 2"},
+                                given::elastic("10", "0.3"),
+                                given::symmetric({"left", "bottom"}),
+                                {"Boundary right/Traction", "1; 0"},
+                                {"Probe spot/At", at},
+                                {"Probe spot/Size", "0.1"},
+                                {"Error/Bound", "true"},
+                                {"Adaptivity/Method", "hpa3"},
+                                {"Adaptivity/Maximum steps", "5"}}));
+  };
+  const Numbers of_disc = in_plate("3.5, 3.5");
+  ASSERT_EQ(of_disc.intervals.at("spot.x").size(), 5U) << of_disc.none;
+  expect_that_all_meet(of_disc);
+  EXPECT_NE(in_plate("1.2, 0.2").none.find("the disc reaches into cells with curved edges"),
+            std::string::npos);
 }
 
 /** Along a curve in contact both components are prescribed, for the normal between nodes is none of w; only moments turn along it. */

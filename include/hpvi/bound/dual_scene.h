@@ -5,15 +5,19 @@
 #include <hpvi/scene/boundary_parts.h>
 #include <hpvi/scene/scene.h>
 
+#include <map>
+
 namespace hpvi
 {
 /**
  * The linear problem a(z, v) = q(v) for all v of V, the displacements that vanish where components are prescribed and
  * slide where contact is bilateral; unilateral contact and friction leave V free. q is a load: of a @p probe along a boundary
  * the mean of the @p component of v there, a force where that is a rigid plate, none where it is prescribed; of one over a disc that with the weight of smooth_mean(). |z|_a is the norm of q
- * on V.
+ * on V. @p meshed: lengths of the probe's boundaries, of a body of revolution areas, where those of the mesh are others than those of the
+ * scene.
  */
-Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, unsigned int component);
+Scene<2> dual_scene(const Scene<2> &scene, const Probe<2> &probe, unsigned int component,
+                    const std::map<dealii::types::boundary_id, double> &meshed = {});
 
 /**
  * The mean over a disc of radius r has a density that jumps, which no rule of quadrature integrates. In its place stands

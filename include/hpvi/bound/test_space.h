@@ -3,7 +3,6 @@
 #define hpvi_test_space_h
 
 #include <hpvi/algebra/linear_solver.h>
-#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/part_tables.h>
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/plane/solution.h>
@@ -108,10 +107,10 @@ private:
   std::vector<std::shared_ptr<const dealii::FullMatrix<double>>> stiffness; ///< by cell
   dealii::SparsityPattern pattern;
   dealii::SparseMatrix<double> K;
+  bool is_exact = true;           ///< are all cells of K parallelograms?
   dealii::Vector<double> applied; ///< L(v_i)
   const double missed_strain;
   std::map<unsigned int, std::unique_ptr<System>> systems; ///< by body
-  mutable std::vector<EnergyRule> rules;                   ///< of squares by strains, by cell
   const std::shared_ptr<PartTables> tables_in_parts;
 };
 } // namespace hpvi

@@ -51,6 +51,9 @@ public:
   AdaptiveSolver(const Scene<dim> &scene, const RunState<dim> &state,
                  MPI_Comm communicator = MPI_COMM_SELF);
 
+  /** By a backend that has a mesh, for a @p scene that has passed check(). */
+  AdaptiveSolver(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend);
+
   AdaptiveSolver(const AdaptiveSolver &) = delete; // stages are announced by this one
 
   /**
@@ -79,8 +82,6 @@ public:
   std::optional<ReducedPart<dim>> reduced() const;
 
 private:
-  AdaptiveSolver(const Scene<dim> &scene, std::unique_ptr<Backend<dim>> backend);
-
   void set_callback(const Announce &listener);
   void announce(Backend<dim> &of);
   void run_steps(const std::function<void(const StepReport<dim> &)> &finished_step);

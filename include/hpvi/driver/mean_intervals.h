@@ -23,14 +23,16 @@ namespace hpvi
  * bound, and `|z|_a^2 <= |z_N|_a^2 + bound^2`. A <= eta + O, R + theta O_c = ErrorBound::radius for its theta, ErrorBound::total for theta = 0.
  * The interval stands about q(u_N), with theta times the work in its half-width.
  * Probes at whose place d does not vanish have none.
+ *
+ * Where edges are curved each step has a body of its own. z_N is then that of its mesh, the mean that along its edges, and theta 0.
  */
 template <int dim>
 class MeanIntervals
 {
 public:
-  /** Solves a scene and hears of its steps. */
-  using Solve =
-      std::function<void(const Scene<2> &, const std::function<void(const StepReport<2> &)> &)>;
+  /** Solves a scene, from the mesh of a solution on if there is one, and hears of its steps. */
+  using Solve = std::function<void(const Scene<2> &, const Solution<2> *,
+                                   const std::function<void(const StepReport<2> &)> &)>;
 
   /** The scene must outlive this; @p solve finds z_N. */
   MeanIntervals(const Scene<dim> &scene, Solve solve);
@@ -50,7 +52,7 @@ private:
     std::string why;      ///< empty: it is known
   };
 
-  const Dual &dual(unsigned int probe, unsigned int component);
+  const Dual &dual(unsigned int probe, unsigned int component, const StepReport<dim> &step);
   Interval interval(const Measured &mean, const Dual &dual, const StepReport<dim> &step);
 
   const Scene<dim> &scene;

@@ -29,6 +29,9 @@ class ReducedBackend : public Backend<dim>
 public:
   explicit ReducedBackend(const Scene<dim> &scene);
 
+  /** On the mesh of @p other, of a scene with the same geometry, with its degrees and tables. */
+  ReducedBackend(const Scene<dim> &scene, const Solution<dim> &other);
+
   /** Of the next load step of a history: it takes over mesh, tables, factor and multiplier of @p last. */
   ReducedBackend(const Scene<dim> &scene, ReducedBackend &last, const PastSlip<dim> &past);
 

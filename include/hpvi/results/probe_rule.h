@@ -34,6 +34,11 @@ template <int dim>
 ProbeRule<dim> probe_rule(const Probe<dim> &probe, const Scene<dim> &scene,
                           const dealii::DoFHandler<dim> &dof_handler,
                           const ShapeTables<dim> &tables);
+
+/** Of a boundary as it is meshed: its length, of an axisymmetric body what it turns into. Collective. */
+template <int dim>
+double boundary_size(dealii::types::boundary_id id, const Scene<dim> &scene,
+                     const dealii::DoFHandler<dim> &dof_handler, const ShapeTables<dim> &tables);
 } // namespace hpvi
 
 #endif
