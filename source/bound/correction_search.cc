@@ -4,6 +4,7 @@
 #include <hpvi/base/numerical_failure.h>
 #include <hpvi/bound/correction_search.h>
 #include <hpvi/bound/legendre.h>
+#include <hpvi/bound/stress_work.h>
 #include <hpvi/plane/springs.h>
 #include <hpvi/solvers/inequality_program.h>
 
@@ -317,27 +318,36 @@ std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) con
   return result;
 }
 
+// Where the rule of the stiffness is exact for no energy, the displacement with its part inside the cell is integrated anew.
 template <int dim>
 std::vector<double> energies_by_cell(const Solution<dim> &solution,
                                      const Discretisation<dim> &discretisation,
                                      const Vector<double> &w)
 {
-  std::vector<double> result(solution.displacement_space.degrees().size());
-  for (unsigned int cell = 0; cell < result.size(); ++cell)
-    if (const auto &element = discretisation.condensation.element(cell))
-    {
-      const auto dofs = solution.displacement_space.cell_dofs(cell);
-      Vector<double> values(element->condensed.m());
-      for (unsigned int i = 0; i < values.size(); ++i)
-        for (const auto &[unknown, weight] : discretisation.unknowns.terms(dofs[i]))
-          values[i] += weight * w[unknown];
-      if (!values.all_zero())
-        result[cell] = element->condensed.matrix_norm_square(values);
-    }
-  const Vector<double> moved = discretisation.unknowns.expand(w); // bubbles are zero at springs
+  const DisplacementSpace<dim> &space = solution.displacement_space;
+  Vector<double> moved = discretisation.unknowns.expand(w); // bubbles are zero at springs
+  const auto is_near = [&](const auto &cell)
+  { return solution.scene.is_axisymmetric() || !map_of<dim>(cell).is_affine(); };
+  bool is_any = false;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    is_any = is_any || is_near(cell);
+  if (is_any)
+    discretisation.condensation.extend(moved);
+  std::vector<double> result;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+  {
+    const auto &element = discretisation.condensation.element(cell->active_cell_index());
+    const auto dofs = space.cell_dofs(cell->active_cell_index());
+    Vector<double> values(element ? element->condensed.m() : 0);
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] = moved[dofs[i]];
+    result.push_back(values.all_zero() ? 0.
+                     : is_near(cell)
+                         ? largest_energy(cell, solution.scene, space, solution.tables, moved)
+                         : element->condensed.matrix_norm_square(values));
+  }
   Vector<double> forces(moved.size());
-  for (const SpringFace &face :
-       spring_faces(solution.scene, solution.displacement_space, solution.tables))
+  for (const SpringFace &face : spring_faces(solution.scene, space, solution.tables))
     result[face.cell] += add_spring_forces({face}, moved, forces);
   return result;
 }

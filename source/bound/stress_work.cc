@@ -231,39 +231,44 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
           missed + 1e-14 * absolute + tractions.defect(bound.imbalance)};
 }
 
+double largest_energy(const DoFHandler<2>::active_cell_iterator &cell, const Scene<2> &scene,
+                      const DisplacementSpace<2> &space, const ShapeTables<2> &tables,
+                      const Vector<double> &v)
+{
+  constexpr unsigned int least = 8; // of what is small: more than enough
+  const CellMap<2> map = map_of<2>(cell);
+  const unsigned int p = space.degrees()[cell->active_cell_index()];
+  const LocalNumbering &numbering = tables.numbering(p);
+  const EnergyRule rule(map, degrees_of_square(map, p, scene.is_axisymmetric()), least);
+  const ShapeTable<2> &table = tables.gradients(p, rule.n_gauss);
+  const auto dofs = space.cell_dofs(cell->active_cell_index());
+  std::vector<double> local(dofs.size());
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    local[numbering.component[i] * table.n_shapes + numbering.shape[i]] = v[dofs[i]];
+  const std::vector<double> derivatives = evaluate(table.derivatives, local),
+                            values = scene.is_axisymmetric() ? evaluate(table.values, local)
+                                                             : std::vector<double>();
+  const HookesLaw<2> law(scene.material_of(cell));
+  double result = 0;
+  for (unsigned int q = 0; q < table.points.size(); ++q)
+  {
+    const Tensor<2, 2> J = map.jacobian(table.points[q]);
+    const SymmetricTensor<2, 2> strain = symmetrize(physical_gradient<2>(
+        derivatives, q * table.rows_per_point, table.derivatives.m(), invert(J)));
+    const Point<2> x = map.point(table.points[q]);
+    result +=
+        table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
+        law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
+  }
+  return rule.factor * result;
+}
+
 std::vector<double> largest_energies(const Scene<2> &scene, const DisplacementSpace<2> &space,
                                      const ShapeTables<2> &tables, const Vector<double> &v)
 {
-  constexpr unsigned int least = 8;
   std::vector<double> result;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
-  {
-    const CellMap<2> map = map_of<2>(cell);
-    const unsigned int p = space.degrees()[cell->active_cell_index()];
-    const LocalNumbering &numbering = tables.numbering(p);
-    const EnergyRule rule(map, degrees_of_square(map, p, scene.is_axisymmetric()), least);
-    const ShapeTable<2> &table = tables.gradients(p, rule.n_gauss);
-    const auto dofs = space.cell_dofs(cell->active_cell_index());
-    std::vector<double> local(dofs.size());
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      local[numbering.component[i] * table.n_shapes + numbering.shape[i]] = v[dofs[i]];
-    const std::vector<double> derivatives = evaluate(table.derivatives, local),
-                              values = scene.is_axisymmetric() ? evaluate(table.values, local)
-                                                               : std::vector<double>();
-    const HookesLaw<2> law(scene.material_of(cell));
-    double square = 0;
-    for (unsigned int q = 0; q < table.points.size(); ++q)
-    {
-      const Tensor<2, 2> J = map.jacobian(table.points[q]);
-      const SymmetricTensor<2, 2> strain = symmetrize(physical_gradient<2>(
-          derivatives, q * table.rows_per_point, table.derivatives.m(), invert(J)));
-      const Point<2> x = map.point(table.points[q]);
-      square +=
-          table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
-          law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
-    }
-    result.push_back(rule.factor * square);
-  }
+    result.push_back(largest_energy(cell, scene, space, tables, v));
   return result;
 }
 } // namespace hpvi

@@ -441,8 +441,9 @@ TEST(ContactCorrection, KnowsItsEnergy)
                                         AdmissibleFriction<2>(solution),
                                         AdmissiblePressure<2>(solution), nullptr);
         const double energy = energy_product(correction(slip, lab), lab);
-        EXPECT_NEAR(sum(slip.energy()), energy, 1e-11 * energy);
-        EXPECT_NEAR(slip.total(), 2. * sum(slip.gap()) + energy, 1e-11 * slip.total());
+        // on distorted cells it is enclosed
+        EXPECT_NEAR(sum(slip.energy()), energy, 1e-9 * energy);
+        EXPECT_NEAR(slip.total(), 2. * sum(slip.gap()) + energy, 1e-9 * slip.total());
         EXPECT_LE(slip.total(), 2. * sum(slip.uncorrected_gap()));
         n_corrected += energy > 0.;
       });

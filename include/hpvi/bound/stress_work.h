@@ -68,10 +68,12 @@ struct StressWork
 StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bound,
                               const Solution<2> &z, PartTables &tables);
 
-/**
- * By active cell `|v|_K^2` of the displacement with unknowns @p v, without springs, from strains: no less than it is, by EnergyRule. With one of
- * the shape functions of @p space alone rigid motions have none.
- */
+/** `|v|_K^2` of the displacement with unknowns @p v on a cell, from strains: no less than it is, by EnergyRule. */
+double largest_energy(const dealii::DoFHandler<2>::active_cell_iterator &cell,
+                      const Scene<2> &scene, const DisplacementSpace<2> &space,
+                      const ShapeTables<2> &tables, const dealii::Vector<double> &v);
+
+/** Of all active cells. */
 std::vector<double> largest_energies(const Scene<2> &scene, const DisplacementSpace<2> &space,
                                      const ShapeTables<2> &tables, const dealii::Vector<double> &v);
 } // namespace hpvi
