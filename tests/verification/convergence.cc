@@ -44,6 +44,7 @@ public:
   {
     Overrides entries = {given::elastic("2", "0.3"),
                          {"Material/Plane", "strain"},
+                         {"Error/Bound", "false"},
                          given::steps(method, std::to_string(steps), std::to_string(degree))};
     entries.insert(entries.end(), geometry.begin(), geometry.end());
     for (const std::string side : {"left", "top", "bottom"})

@@ -49,9 +49,11 @@ inline void expect_coulomb(const Solution<2> &solution)
   EXPECT_GT(n_cones, 0u);
 }
 
-inline Outcome run(const Scene<2> &scene)
+/** Without a bound. */
+inline Outcome run(Scene<2> scene)
 {
   Outcome outcome;
+  scene.error_bound = false;
   AdaptiveSolver<2>(scene).run(
       [&](const StepReport<2> &step)
       {

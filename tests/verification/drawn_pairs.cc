@@ -142,6 +142,7 @@ Overrides fitted(const std::string &law, const std::string &slave, const unsigne
                     {"Contact fit/Slave", slave},
                     given::elastic("10", "0.3"),
                     {"Boundary pin.inner/Pressure", "1"},
+                    {"Error/Bound", "false"},
                     given::steps("pu", "1", std::to_string(p))};
   if (law == "Coulomb")
     entries.emplace_back("Contact fit/Friction coefficient", "0.3");
@@ -178,21 +179,21 @@ TEST(DrawnPairs, FitWhereVerticesNearlyMeet)
         deviation(joined({fitted(row.law, row.slave, p), ring_shape("pin", 1, row.n),
                           ring_shape("sheet", 2, row.n)}),
                   fit);
+    bool is_reversed = false;
     for (const double apart : {1e-2, 1e-5, 1e-6, 1e-8, 1e-9, 1e-12})
-      for (const bool is_reversed : {false, true})
-        if (apart <= row.most)
-        {
-          double sign = 1;
-          const Overrides scene =
-              joined({fitted(row.law, row.slave, p),
-                      row.pin_is_a_shape
-                          ? ring_shape("pin", 1, row.n)
-                          : ring_file("pin", 1, angles(row.n, [] { return 0.; }), row.curve),
-                      ring_file("sheet", 2, angles(row.n, [&] { return (sign = -sign) * apart; }),
-                                row.curve, is_reversed)});
-          EXPECT_LT(deviation(scene, fit), (is_circle ? 2 : 20) * of_shapes + 1e-12)
-              << row.law << " " << row.curve << " " << apart << " " << is_reversed;
-        }
+      if (apart <= row.most)
+      {
+        double sign = 1;
+        is_reversed = !is_reversed;
+        const Overrides scene = joined(
+            {fitted(row.law, row.slave, p),
+             row.pin_is_a_shape ? ring_shape("pin", 1, row.n)
+                                : ring_file("pin", 1, angles(row.n, [] { return 0.; }), row.curve),
+             ring_file("sheet", 2, angles(row.n, [&] { return (sign = -sign) * apart; }), row.curve,
+                       is_reversed)});
+        EXPECT_LT(deviation(scene, fit), (is_circle ? 2 : 20) * of_shapes + 1e-12)
+            << row.law << " " << row.curve << " " << apart << " " << is_reversed;
+      }
   }
 }
 
