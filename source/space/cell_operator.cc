@@ -6,16 +6,45 @@
 #include <deal.II/matrix_free/fe_evaluation.h>
 #include <deal.II/matrix_free/matrix_free.h>
 
-#ifdef HPVI_WIDE // deal.II's library has what follows for its own width alone
-#define FE_EVAL_FACTORY_DEGREE_MAX 4
+#ifdef HPVI_WIDE
+// deal.II's library has what follows for its own width alone; degrees are those of mappings, for products know theirs.
+#define FE_EVAL_FACTORY_DEGREE_MAX 2
 #include <deal.II/matrix_free/dof_info.templates.h>
+#include <deal.II/matrix_free/evaluation_kernels_hanging_nodes.h>
 #include <deal.II/matrix_free/evaluation_template_factory.templates.h>
-#undef dealii_matrix_free_evaluation_template_factory_templates_h // two headers of 9.4.1 have one guard
-#include <deal.II/matrix_free/evaluation_template_face_factory.templates.h>
-#include <deal.II/matrix_free/evaluation_template_factory_hanging_nodes.templates.h>
 #include <deal.II/matrix_free/mapping_info.templates.h>
 #include <deal.II/matrix_free/matrix_free.templates.h>
 #include <deal.II/matrix_free/shape_info.templates.h>
+
+DEAL_II_NAMESPACE_OPEN
+namespace internal
+{
+/** Nobody asks for faces, which would take time to compile. */
+template <int dim, typename Number>
+void FEFaceEvaluationFactory<dim, Number>::evaluate(const unsigned int,
+                                                    const EvaluationFlags::EvaluationFlags,
+                                                    const Number *,
+                                                    FEEvaluationData<dim, Number, true> &)
+{
+  AssertThrow(false, ExcNotImplemented());
+}
+
+/** Of the degrees that products have; those above are the mappings'. */
+template <int dim, typename Number, typename Wide>
+void FEEvaluationHangingNodesFactory<dim, Number, Wide>::apply(
+    const unsigned int n_components, const unsigned int degree,
+    const MatrixFreeFunctions::ShapeInfo<Wide> &shape, const bool transpose,
+    const std::array<MatrixFreeFunctions::compressed_constraint_kind, Wide::size()> &hanging,
+    Wide *values)
+{
+  using Kernel = FEEvaluationImplHangingNodes<dim, Wide>;
+  const auto run = degree == 2   ? &Kernel::template run<2, 3>
+                   : degree == 3 ? &Kernel::template run<3, 4>
+                                 : &Kernel::template run<4, 5>;
+  run(n_components, shape, transpose, hanging, values);
+}
+} // namespace internal
+DEAL_II_NAMESPACE_CLOSE
 #endif
 
 namespace hpvi
