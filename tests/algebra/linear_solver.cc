@@ -44,19 +44,21 @@ SymmetricMatrix star(const unsigned int n)
   return A;
 }
 
-/** All memory that there is, but for @p n_blocks of @p size bytes. */
-std::vector<std::unique_ptr<char[]>> all_but(const unsigned int n_blocks, const std::size_t size)
+/**
+ * All memory that there is, but for @p n_blocks of @p size bytes. A block that is refused may yet be found where malloc keeps what
+ * other threads have left, of which it looks at one at a time.
+ */
+std::vector<std::unique_ptr<char[]>> all_but(const unsigned int n_blocks, const std::size_t size,
+                                             std::vector<std::unique_ptr<char[]>> all)
 {
-  std::vector<std::unique_ptr<char[]>> large, all;
+  std::vector<std::unique_ptr<char[]>> large;
+  large.reserve(1000);
   for (const std::size_t block : {size, size / 64})
-    try
-    {
-      for (auto &blocks = block == size ? large : all;;)
-        blocks.emplace_back(new char[block]);
-    }
-    catch (const std::bad_alloc &)
-    {
-    }
+    for (unsigned int n_refused = 0; n_refused < 64;)
+      if (char *const found = new (std::nothrow) char[block])
+        (block == size ? large : all).emplace_back(found);
+      else
+        ++n_refused;
   for (std::size_t k = n_blocks; k < large.size(); ++k)
     all.push_back(std::move(large[k]));
   return all;
@@ -177,8 +179,10 @@ TEST(LinearSolver, SolutionBeyondTheMemory)
   // For the first half of a solution alone, and for a part of the second.
   for (const unsigned int n_blocks : {1, 2})
   {
+    std::vector<std::unique_ptr<char[]>> blocks;
+    blocks.reserve(100000);
     const AddressSpaceLimit limit(6e6);
-    const auto the_rest = all_but(n_blocks, n * sizeof(double) + 8192);
+    const auto the_rest = all_but(n_blocks, n * sizeof(double) + 8192, std::move(blocks));
     EXPECT_THROW(solver.solve(f), std::bad_alloc) << n_blocks;
   }
 }

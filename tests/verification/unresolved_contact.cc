@@ -54,6 +54,12 @@ struct Coefficient
   bool jumps; ///< edges with a jump are named until they carry next to nothing
 };
 
+/** Bytes of it, which GoogleTest would print, are not all set. */
+std::ostream &operator<<(std::ostream &out, const Coefficient &coefficient)
+{
+  return out << coefficient.name;
+}
+
 using AnyCoefficient = ::testing::TestWithParam<Coefficient>;
 
 /** The body slips everywhere: friction is int mu_f p wherever no edge is said to miss it, and in the end. */
