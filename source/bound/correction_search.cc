@@ -341,10 +341,14 @@ std::vector<double> energies_by_cell(const Solution<dim> &solution,
     Vector<double> values(element ? element->condensed.m() : 0);
     for (unsigned int i = 0; i < values.size(); ++i)
       values[i] = moved[dofs[i]];
-    result.push_back(values.all_zero() ? 0.
-                     : is_near(cell)
-                         ? largest_energy(cell, solution.scene, space, solution.tables, moved)
-                         : element->condensed.matrix_norm_square(values));
+    result.push_back(
+        values.all_zero() ? 0.
+        : is_near(cell)
+            ? energy_range(cell, solution.scene, space, solution.tables, moved,
+                           displacement_rule(cell, solution.scene,
+                                             space.degrees()[cell->active_cell_index()]))
+                  .high
+            : element->condensed.matrix_norm_square(values));
   }
   Vector<double> forces(moved.size());
   for (const SpringFace &face : spring_faces(solution.scene, space, solution.tables))

@@ -27,6 +27,7 @@
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/bound/joint_lift.h>
 #include <hpvi/bound/row_stresses.h>
+#include <hpvi/bound/stress_work.h>
 #include <hpvi/plane/matching.h>
 
 #include <boost/math/tools/minima.hpp>
@@ -134,16 +135,17 @@ void set_radius(ErrorBound &result, const EquilibratedStress &stress, const Cont
 }
 
 /** Of U = u_N - w + d; J changes by @p change with u_N - w, w in V_N. */
-void set_energy(ErrorBound &result, const EquilibratedStress &stress, const ContactError &contact,
-                const double change, const DataError &data)
+void set_energy(ErrorBound &result, const Solution<2> &solution, const EquilibratedStress &stress,
+                const ContactError &contact, const double change, const DataError &data)
 {
   const double w = norm(contact), b = distance_from_admissible(contact, data);
   result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + sum(contact.gaps);
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift + data.missed_work;
-  result.energy_above = w == 0. && data.lift == 0. ? 0. : centre + unknown; // u_N is admissible
-  result.energy_below = result.energy + unknown - centre;
+  const double missed = missed_energy(solution) / 2; // J(u_N) is what its rule says
+  result.energy_above = (w == 0. && data.lift == 0. ? 0. : centre + unknown) + missed;
+  result.energy_below = result.energy + unknown - centre + missed;
 }
 
 /** Under Coulomb's law no energy is least. */
@@ -569,7 +571,7 @@ try
   else
   {
     set_radius(result, stress, contact.in_norms, data);
-    set_energy(result, stress, contact.in_energy, contact.change, data);
+    set_energy(result, solution, stress, contact.in_energy, contact.change, data);
     result.moved_by_energy = contact.in_energy.energies;
   }
   if (!solution.spaces->past.empty())

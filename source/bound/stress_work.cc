@@ -7,6 +7,7 @@
 #include <hpvi/plane/element_matrices.h>
 #include <hpvi/plane/internal_forces.h>
 #include <hpvi/plane/load_quadrature.h>
+#include <hpvi/plane/springs.h>
 #include <hpvi/results/common_refinement.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -231,15 +232,21 @@ StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bou
           missed + 1e-14 * absolute + tractions.defect(bound.imbalance)};
 }
 
-double largest_energy(const DoFHandler<2>::active_cell_iterator &cell, const Scene<2> &scene,
-                      const DisplacementSpace<2> &space, const ShapeTables<2> &tables,
-                      const Vector<double> &v)
+EnergyRule displacement_rule(const Triangulation<2>::cell_iterator &cell, const Scene<2> &scene,
+                             const unsigned int p, const double enough)
 {
-  constexpr unsigned int least = 8; // of what is small: more than enough
+  constexpr unsigned int least = 8;
+  const CellMap<2> map = map_of<2>(cell);
+  return EnergyRule(map, degrees_of_square(map, p, scene.is_axisymmetric()), least, enough);
+}
+
+EnergyRange energy_range(const DoFHandler<2>::active_cell_iterator &cell, const Scene<2> &scene,
+                         const DisplacementSpace<2> &space, const ShapeTables<2> &tables,
+                         const Vector<double> &v, const EnergyRule &rule)
+{
   const CellMap<2> map = map_of<2>(cell);
   const unsigned int p = space.degrees()[cell->active_cell_index()];
   const LocalNumbering &numbering = tables.numbering(p);
-  const EnergyRule rule(map, degrees_of_square(map, p, scene.is_axisymmetric()), least);
   const ShapeTable<2> &table = tables.gradients(p, rule.n_gauss);
   const auto dofs = space.cell_dofs(cell->active_cell_index());
   std::vector<double> local(dofs.size());
@@ -260,15 +267,55 @@ double largest_energy(const DoFHandler<2>::active_cell_iterator &cell, const Sce
         table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
         law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
   }
-  return rule.factor * result;
+  return {result / rule.factor, result * rule.factor};
+}
+
+double missed_energy(const Solution<2> &solution)
+{
+  constexpr double enough = 1e-13;
+  const Scene<2> &scene = solution.scene;
+  const DisplacementSpace<2> &space = solution.displacement_space;
+  EnergyRange sum;
+  bool is_exact = !scene.is_axisymmetric();
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    is_exact = is_exact && map_of<2>(cell).is_affine();
+  if (is_exact)
+    return 0.;
+  std::vector<EnergyRange> ranges(space.degrees().size());
+  std::vector<DoFHandler<2>::active_cell_iterator> cells;
+  for (const auto &cell : space.dof_handler().active_cell_iterators())
+    cells.push_back(cell);
+  parallel_for_each(cells.size(), 8,
+                    [&](const unsigned int k)
+                    {
+                      ranges[k] = energy_range(
+                          cells[k], scene, space, solution.tables, solution.u,
+                          displacement_rule(cells[k], scene, space.degrees()[k], enough));
+                    });
+  for (const EnergyRange &range : ranges)
+  {
+    sum.low += range.low;
+    sum.high += range.high;
+  }
+  Vector<double> forces(solution.u.size());
+  const double known =
+      internal_forces(scene, space, solution.tables, solution.u).energy_product -
+      add_spring_forces(spring_faces(scene, space, solution.tables), solution.u, forces);
+  return std::max(sum.high - known, known - sum.low);
 }
 
 std::vector<double> largest_energies(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                                     const ShapeTables<2> &tables, const Vector<double> &v)
+                                     const ShapeTables<2> &tables, const Vector<double> &v,
+                                     std::vector<EnergyRule> &rules)
 {
   std::vector<double> result;
   for (const auto &cell : space.dof_handler().active_cell_iterators())
-    result.push_back(largest_energy(cell, scene, space, tables, v));
+  {
+    const unsigned int k = cell->active_cell_index();
+    if (rules.size() == k)
+      rules.push_back(displacement_rule(cell, scene, space.degrees()[k]));
+    result.push_back(energy_range(cell, scene, space, tables, v, rules[k]).high);
+  }
   return result;
 }
 } // namespace hpvi

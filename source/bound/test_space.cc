@@ -176,7 +176,7 @@ double TestSpace::norm(const Vector<double> &w) const
 
 double TestSpace::square_by_strains(const Vector<double> &w) const
 {
-  const std::vector<double> energies = largest_energies(scene, space, *lender->tables, w);
+  const std::vector<double> energies = largest_energies(scene, space, *lender->tables, w, rules);
   return std::accumulate(energies.begin(), energies.end(), 0.);
 }
 

@@ -62,8 +62,9 @@ double correction_at_joints(const Scene<2> &of_mean, const ErrorBound &bound)
 /** |z_N|_a, or a little more where rules of Gauss do not give it. */
 double largest_norm(const Solution<2> &z)
 {
+  std::vector<EnergyRule> rules;
   const std::vector<double> energies =
-      largest_energies(z.scene, z.displacement_space, z.tables, z.u);
+      largest_energies(z.scene, z.displacement_space, z.tables, z.u, rules);
   Vector<double> forces(z.u.size());
   return std::sqrt(
       std::accumulate(energies.begin(), energies.end(), 0.) +

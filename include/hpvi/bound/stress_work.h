@@ -2,6 +2,7 @@
 #ifndef hpvi_stress_work_h
 #define hpvi_stress_work_h
 
+#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/error_bound.h>
 #include <hpvi/bound/part_tables.h>
 #include <hpvi/plane/solution.h>
@@ -68,14 +69,29 @@ struct StressWork
 StressWork work_of_difference(const Solution<2> &solution, const ErrorBound &bound,
                               const Solution<2> &z, PartTables &tables);
 
-/** `|v|_K^2` of the displacement with unknowns @p v on a cell, from strains: no less than it is, by EnergyRule. */
-double largest_energy(const dealii::DoFHandler<2>::active_cell_iterator &cell,
-                      const Scene<2> &scene, const DisplacementSpace<2> &space,
-                      const ShapeTables<2> &tables, const dealii::Vector<double> &v);
+/** Between what the energy of a displacement is for sure. */
+struct EnergyRange
+{
+  double low = 0, high = 0; ///< |v|^2 [stress length^2]
+};
 
-/** Of all active cells. */
+/** A rule for energies of displacements of degree @p p, with a factor of 1 + @p enough or what a dozen more points lead to. */
+EnergyRule displacement_rule(const dealii::Triangulation<2>::cell_iterator &cell,
+                             const Scene<2> &scene, unsigned int p, double enough = 1e-6);
+
+/** Of the displacement with unknowns @p v on a cell, from strains. */
+EnergyRange energy_range(const dealii::DoFHandler<2>::active_cell_iterator &cell,
+                         const Scene<2> &scene, const DisplacementSpace<2> &space,
+                         const ShapeTables<2> &tables, const dealii::Vector<double> &v,
+                         const EnergyRule &rule);
+
+/** What the rule of the stiffness may miss of |u_N|^2, up or down; 0 on parallelograms. */
+double missed_energy(const Solution<2> &solution);
+
+/** EnergyRange::high of all active cells; @p rules for them, empty at first. */
 std::vector<double> largest_energies(const Scene<2> &scene, const DisplacementSpace<2> &space,
-                                     const ShapeTables<2> &tables, const dealii::Vector<double> &v);
+                                     const ShapeTables<2> &tables, const dealii::Vector<double> &v,
+                                     std::vector<EnergyRule> &rules);
 } // namespace hpvi
 
 #endif

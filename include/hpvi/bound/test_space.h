@@ -3,6 +3,7 @@
 #define hpvi_test_space_h
 
 #include <hpvi/algebra/linear_solver.h>
+#include <hpvi/bound/energy_rule.h>
 #include <hpvi/bound/part_tables.h>
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/plane/solution.h>
@@ -111,6 +112,7 @@ private:
   dealii::Vector<double> applied; ///< L(v_i)
   const double missed_strain;
   std::map<unsigned int, std::unique_ptr<System>> systems; ///< by body
+  mutable std::vector<EnergyRule> rules;                   ///< of norm(), by cell
   const std::shared_ptr<PartTables> tables_in_parts;
 };
 } // namespace hpvi
