@@ -323,21 +323,41 @@ private:
     return result;
   }
 
-  /** What the scene does not tell: where all cells about a vertex are rough and large, and no other vertex of theirs is like it. */
+  bool is_explained(const Cell &cell) const
+  {
+    return std::any_of(points.begin(), points.end(),
+                       [&](const SingularPoint &point)
+                       {
+                         double distance = std::numeric_limits<double>::infinity();
+                         for (const unsigned int f : cell->face_indices())
+                           distance = std::min(distance, distance_to_edge(point.x, cell, f));
+                         return point.smallest == 0 && distance < cell->diameter();
+                       });
+  }
+
+  /**
+   * What the scene does not tell: where all cells about a vertex are rough and large, and no other vertex of theirs is like it.
+   * Cells near a point that is known are rough because of it. So the largest come first.
+   */
   void add_rough_vertices()
   {
     const double large = 0.1 * *std::max_element(start.eta.begin(), start.eta.end());
     std::map<unsigned int, std::vector<unsigned int>> cells_at;
-    for (const auto &cell : mesh_now.active_cell_iterators())
-      for (const unsigned int v : cell->vertex_indices())
-        cells_at[cell->vertex_index(v)].push_back(cell->active_cell_index());
+    std::vector<Cell> falling;
     for (const auto &cell : mesh_now.active_cell_iterators())
     {
-      const unsigned int k = cell->active_cell_index();
-      if (start.eta[k] <= large || decay(outlooks[k]) > smooth ||
-          std::any_of(points.begin(), points.end(),
-                      [&](const SingularPoint &point)
-                      { return point.smallest == 0 && has(cell, point); }))
+      falling.push_back(cell);
+      for (const unsigned int v : cell->vertex_indices())
+        cells_at[cell->vertex_index(v)].push_back(cell->active_cell_index());
+    }
+    const auto eta_of = [&](const Cell &cell) { return start.eta[cell->active_cell_index()]; };
+    std::stable_sort(falling.begin(), falling.end(),
+                     [&](const Cell &a, const Cell &b) { return eta_of(a) > eta_of(b); });
+    for (const Cell &cell : falling)
+    {
+      if (eta_of(cell) <= large)
+        break;
+      if (decay(outlooks[cell->active_cell_index()]) > smooth || is_explained(cell))
         continue;
       std::vector<std::pair<double, unsigned int>> vertices;
       for (const unsigned int v : cell->vertex_indices())
