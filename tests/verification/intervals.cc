@@ -7,6 +7,7 @@
 #include <hpvi/bound/test_motion.h>
 #include <hpvi/driver/adaptive_solver.h>
 #include <hpvi/reader/scene_reader.h>
+#include <hpvi/results/probe_rule.h>
 
 #include <algorithm>
 #include <cmath>
@@ -561,6 +562,35 @@ TEST(Intervals, OfCurvedBodies)
                                          {"Adaptivity/Method", "hpa3"}})));
   for (const Interval &force : adaptive.intervals.at("outer.x"))
     EXPECT_LE(std::abs(force.centre - forces[5].centre), force.half_width + forces[5].half_width);
+}
+
+/** The load of a mean along edges of degree 2, which are off their circle, has the force 1 on these. */
+TEST(Intervals, TakeMeansAlongEdgesAsTheyAre)
+{
+  for (const std::string plane : {"strain", "axisymmetric"})
+  {
+    const Scene<2> scene = scene_of({{"Geometry/Shape", "ring sector"},
+                                     {"Geometry/Radii", "1, 2"},
+                                     {"Geometry/Subdivisions", "1, 1"},
+                                     {"Material/Plane", plane},
+                                     {"Boundary start/Displacement", "0; 0"},
+                                     {"Probe in/On", "inner"}});
+    Triangulation<2> mesh;
+    make_mesh(scene, mesh);
+    const Degrees degrees(1, 2);
+    set_edge_degrees(mesh, degrees);
+    const Laboratory of_scene(scene, mesh, degrees);
+    const types::boundary_id inner = scene.probes[0].on[0];
+    const double size =
+        boundary_size<2>(inner, scene, of_scene.displacement_space.dof_handler(), of_scene.tables);
+    const Scene<2> dual = dual_scene(scene, scene.probes[0], 0, {{inner, size}});
+    const Laboratory of_dual(dual, mesh, degrees);
+    EXPECT_NEAR(of_dual.spaces->loads->sums_by_boundary(of_dual.displacement_space.dof_handler())
+                    .at(inner)
+                    .force[0],
+                1., 1e-12);
+    EXPECT_GT(std::abs(size / (plane == "strain" ? numbers::PI / 2 : 2 * numbers::PI) - 1), 1e-4);
+  }
 }
 
 /**
