@@ -134,16 +134,15 @@ void set_radius(ErrorBound &result, const EquilibratedStress &stress, const Cont
   result.radius = std::min(least, result.total);
 }
 
-/** Of U = u_N - w + d; J changes by @p change with u_N - w, w in V_N. */
-void set_energy(ErrorBound &result, const Solution<2> &solution, const EquilibratedStress &stress,
-                const ContactError &contact, const double change, const DataError &data)
+/** Of U = u_N - w + d; J changes by @p change with u_N - w, w in V_N, as the rule of the stiffness says, which @p missed some. */
+void set_energy(ErrorBound &result, const EquilibratedStress &stress, const ContactError &contact,
+                const double change, const double missed, const DataError &data)
 {
   const double w = norm(contact), b = distance_from_admissible(contact, data);
   result.energy = std::pow(stress_and_oscillation(stress, data) + b, 2) / 2 + sum(contact.gaps);
   // J(u_N - w + d) = J(u_N - w) + (sigma(u_N - w) - s, eps(d)) + int s n . d - R(d) + |d|^2/2
   const double centre = change + data.lift_work + data.lift * data.lift / 2,
                unknown = (result.stress + w + result.oscillation) * data.lift + data.missed_work;
-  const double missed = missed_energy(solution) / 2; // J(u_N) is what its rule says
   result.energy_above = (w == 0. && data.lift == 0. ? 0. : centre + unknown) + missed;
   result.energy_below = result.energy + unknown - centre + missed;
 }
@@ -463,6 +462,7 @@ struct ErrorBounds::Contact
 {
   ContactError in_norms, in_energy;
   double change = 0;
+  Vector<double> moved; ///< u_N - w of that
   std::string flaw;
   std::optional<ContactCorrection<2>> correction; ///< w of the norms
 };
@@ -484,11 +484,15 @@ ErrorBounds::Contact ErrorBounds::contact_of(const Solution<2> &solution,
   const ContactCorrection<2> &first = *corrections[0];
   result.in_norms = {first.energy(), first.gap()};
   result.in_energy = {std::vector<double>(first.energy().size()), first.uncorrected_gap()};
+  result.moved = solution.u;
   if (is_moved)
   {
     Vector<double> v(corrections[1]->unknowns());
     v *= -1.;
     result.change = energy_change(solution, discretisation, v);
+    Vector<double> w = discretisation.unknowns.expand(v);
+    discretisation.condensation.extend(w);
+    result.moved += w;
     result.in_energy = {corrections[1]->energy(), corrections[1]->gap()};
   }
   for (const auto &correction : corrections)
@@ -537,6 +541,7 @@ try
     contact = {{joints->energies, joints->gaps},
                {joints->energies, joints->gaps},
                joints->change,
+               joints->moved,
                joints->flaw,
                std::nullopt};
   }
@@ -571,7 +576,8 @@ try
   else
   {
     set_radius(result, stress, contact.in_norms, data);
-    set_energy(result, solution, stress, contact.in_energy, contact.change, data);
+    set_energy(result, stress, contact.in_energy, contact.change,
+               missed_energy(solution, contact.moved) / 2, data);
     result.moved_by_energy = contact.in_energy.energies;
   }
   if (!solution.spaces->past.empty())

@@ -397,6 +397,9 @@ void JointLift::set_w()
   const BorderedMatrix A{discretisation.system.A, {}};
   const Vector<double> w = RestrictedEnergy(A, is_free, fixed, {}).minimiser();
   energies = energies_by_cell(solution, discretisation, w);
+  moved = unknowns.expand(w);
+  discretisation.condensation.extend(moved);
+  moved += solution.u;
   change =
       A.energy(w) / 2 - solution.z * solution.spaces->contact_operator.moments(unknowns.expand(w));
 }

@@ -267,10 +267,10 @@ EnergyRange energy_range(const DoFHandler<2>::active_cell_iterator &cell, const 
         table.weights[q] * std::abs(determinant(J)) * scene.circumference(x) *
         law.energy_product(Tensor<2, 2>(strain), scene.is_axisymmetric() ? values[q] / x[0] : 0.);
   }
-  return {result / rule.factor, result * rule.factor};
+  return {result / rule.factor, result > 0. ? result * rule.factor : 0.};
 }
 
-double missed_energy(const Solution<2> &solution)
+double missed_energy(const Solution<2> &solution, const Vector<double> &v)
 {
   constexpr double enough = 1e-13;
   const Scene<2> &scene = solution.scene;
@@ -289,7 +289,7 @@ double missed_energy(const Solution<2> &solution)
                     [&](const unsigned int k)
                     {
                       ranges[k] = energy_range(
-                          cells[k], scene, space, solution.tables, solution.u,
+                          cells[k], scene, space, solution.tables, v,
                           displacement_rule(cells[k], scene, space.degrees()[k], enough));
                     });
   for (const EnergyRange &range : ranges)
@@ -297,10 +297,9 @@ double missed_energy(const Solution<2> &solution)
     sum.low += range.low;
     sum.high += range.high;
   }
-  Vector<double> forces(solution.u.size());
-  const double known =
-      internal_forces(scene, space, solution.tables, solution.u).energy_product -
-      add_spring_forces(spring_faces(scene, space, solution.tables), solution.u, forces);
+  Vector<double> forces(v.size());
+  const double known = internal_forces(scene, space, solution.tables, v).energy_product -
+                       add_spring_forces(spring_faces(scene, space, solution.tables), v, forces);
   return std::max(sum.high - known, known - sum.low);
 }
 

@@ -71,6 +71,18 @@ double largest_norm(const Solution<2> &z)
       add_spring_forces(spring_faces(z.scene, z.displacement_space, z.tables), z.u, forces));
 }
 
+/** Is a rigid plate along a curve free to turn? Its middle is that of the drawing, and the mean has some of its turn then. */
+bool turns_along_curve(const Probe<2> &probe, const Scene<2> &scene)
+{
+  const std::vector<Side<2>> sides = sides_of(scene);
+  return std::any_of(probe.on.begin(), probe.on.end(),
+                     [&](const types::boundary_id id)
+                     {
+                       const auto &plate = scene.boundaries[id].plate;
+                       return plate && plate->is_free(2) && !sides[id].curves.empty();
+                     });
+}
+
 /** Does the disc of a probe reach into cells with curved edges, on which its rule is no more than near? */
 bool reaches_curves(const Probe<2> &probe, const StepReport<2> &step)
 {
@@ -169,12 +181,20 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
               result.why = "the disc is too small beside the body";
               return;
             }
+            result.why.clear();
             result.z = std::make_shared<const Solution<2>>(of_dual.solution());
-            const double norm = largest_norm(*result.z);
-            // z_N is orthogonal to its error where it is in V.
-            result.norm = result.scene->has_pairs() ? norm + of_dual.bound->total
-                                                    : std::hypot(norm, of_dual.bound->total);
-            result.error = of_dual.bound->total;
+            const Solution<2> &z = *result.z;
+            const double norm = largest_norm(z), error = of_dual.bound->total;
+            // z_N is orthogonal to its error where it is in V, but for what the rule of the stiffness misses of its energy.
+            result.norm = result.scene->has_pairs()
+                              ? norm + error
+                              : std::sqrt(norm * norm + error * error + 2 * missed_energy(z, z.u));
+            result.error = error;
+            if (!std::isfinite(result.norm))
+            {
+              result.z.reset();
+              result.why = "cells are too flat";
+            }
           });
   }
   catch (const InputError &)
@@ -185,8 +205,6 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
   {
     result.why = error.what();
   }
-  if (result.z)
-    result.why.clear();
   if (probe.kind == ProbeKind::disc)
     result.remainder = smooth_mean(scene, probe).remainder;
   return result;
@@ -198,8 +216,9 @@ template <>
 Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
                                     const StepReport<2> &step)
 {
+  const double round_off = scene.geometry.has_curves() ? 1e-11 : 1e-14; // |x'| is no polynomial
   if (!dual.z)
-    return {mean.value, 1e-14 * std::abs(mean.value)};
+    return {mean.value, round_off * std::abs(mean.value)};
   const ErrorBound &bound = *step.bound;
   const Solution<2> solution = step.solution(), &z = *dual.z;
   const double norm = dual.norm + dual.remainder;
@@ -217,7 +236,7 @@ Interval MeanIntervals<2>::interval(const Measured &mean, const Dual &dual,
     width = std::min(width, half_way); // the first argument where the other is no number
   }
   return {mean.value, width + (bound.data + correction_at_joints(*dual.scene, bound)) * norm +
-                          1e-14 * std::abs(mean.value)};
+                          round_off * std::abs(mean.value)};
 }
 
 template <>
@@ -234,8 +253,11 @@ void MeanIntervals<2>::set(StepReport<2> &step)
     std::string flaw;
     if (scene.is_axisymmetric() && probe.kind == ProbeKind::disc)
       flaw = "a mean over a ring has the weight of the radius";
-    else if (probe.kind == ProbeKind::disc && reaches_curves(probe, step))
+    else if (scene.geometry.has_curves() && probe.kind == ProbeKind::disc &&
+             reaches_curves(probe, step))
       flaw = "the disc reaches into cells with curved edges";
+    else if (turns_along_curve(probe, scene))
+      flaw = "a rigid plate along a curve may turn";
     for (unsigned int c = 0; c < 2 && flaw.empty(); ++c)
     {
       const Dual &of_mean = dual(value.probe, c, step);

@@ -123,10 +123,14 @@ Quadrature<1> face_rule(const DoFHandler<2>::active_cell_iterator &cell, const u
 {
   const auto measure = [&](const Point<1> &s)
   { return map.face_measure(face, point_on_face<2>(face, s)); };
-  const QGauss<1> gauss(
-      map.is_curved() && map.blends()[face] // |x'| is no polynomial
-          ? rule_parts<1>({create_unit_bounding_box<1>()}, n_points - 2, {measure}, tables)[0].n
-          : n_points);
+  const unsigned int degree = cell->get_fe().degree;
+  const auto times_shapes = [&](const Point<1> &s)
+  { return measure(s) * std::legendre(degree, 2 * s[0] - 1); };
+  const QGauss<1> gauss(map.is_curved() && map.blends()[face] // |x'| is no polynomial
+                            ? rule_parts<1>({create_unit_bounding_box<1>()}, n_points - 2,
+                                            {measure, times_shapes}, tables)[0]
+                                  .n
+                            : n_points);
   std::vector<Point<1>> points;
   std::vector<double> weights;
   const unsigned int across = face / 2, along = 1 - across;

@@ -64,7 +64,7 @@ struct ErrorBound
   double data = 0;        ///< |d|_a
   double energy = 0;      ///< of J(U) - J(u) [stress length^dim]
 
-  /** `J(u_N) - energy_below <= J(u) <= J(u_N) + energy_above`; u_N admissible: energy and 0. */
+  /** `J(u_N) - energy_below <= J(u) <= J(u_N) + energy_above`; u_N admissible on parallelograms: energy and 0. */
   double energy_below = 0, energy_above = 0;
 
   /** By active cell: eta_K^2 and what oscillation and slip add; to mark by. */

@@ -30,6 +30,7 @@ public:
 
   std::vector<double> energies; ///< |w|_a^2 with springs by active cell index
   double change = 0;            ///< a(u_N, w) - L(w) + |w|_a^2/2
+  dealii::Vector<double> moved; ///< u_N + w
   std::vector<double> cells;    ///< |d - w|_{a,K} with the springs of its edges, likewise
   std::vector<double> gaps; ///< of u_N + d by contact face: gap() of ErrorBound [stress length^dim]
   double work =

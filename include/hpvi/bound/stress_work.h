@@ -85,8 +85,8 @@ EnergyRange energy_range(const dealii::DoFHandler<2>::active_cell_iterator &cell
                          const ShapeTables<2> &tables, const dealii::Vector<double> &v,
                          const EnergyRule &rule);
 
-/** What the rule of the stiffness may miss of |u_N|^2, up or down; 0 on parallelograms. */
-double missed_energy(const Solution<2> &solution);
+/** What the rule of the stiffness may miss of |v|^2, up or down, v a displacement by the unknowns of @p solution; 0 on parallelograms. */
+double missed_energy(const Solution<2> &solution, const dealii::Vector<double> &v);
 
 /** EnergyRange::high of all active cells; @p rules for them, empty at first. */
 std::vector<double> largest_energies(const Scene<2> &scene, const DisplacementSpace<2> &space,
