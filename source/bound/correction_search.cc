@@ -318,7 +318,7 @@ std::vector<double> CorrectionSearch<dim>::energies(const Vector<double> &w) con
   return result;
 }
 
-// Where the rule of the stiffness is exact for no energy, the displacement with its part inside the cell is integrated anew.
+// Where the rule of the stiffness is not exact, the energy is that of the displacement with its part inside the cell, enclosed.
 template <int dim>
 std::vector<double> energies_by_cell(const Solution<dim> &solution,
                                      const Discretisation<dim> &discretisation,

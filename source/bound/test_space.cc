@@ -170,7 +170,7 @@ double TestSpace::norm(const Vector<double> &w) const
     square += w[i] * Kw[i];
     scale += w[i] * K.diag_element(i) * w[i];
   }
-  // where the rule of K is exact for no energy, K is no more than near
+  // where the rule of K is not exact, K is no more than near
   return std::sqrt(!is_exact || square < nearly_rigid * scale ? square_by_strains(w) : square);
 }
 

@@ -181,7 +181,6 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
               result.why = "the disc is too small beside the body";
               return;
             }
-            result.why.clear();
             result.z = std::make_shared<const Solution<2>>(of_dual.solution());
             const Solution<2> &z = *result.z;
             const double norm = largest_norm(z), error = of_dual.bound->total;
@@ -205,6 +204,8 @@ const MeanIntervals<2>::Dual &MeanIntervals<2>::dual(const unsigned int number,
   {
     result.why = error.what();
   }
+  if (result.z)
+    result.why.clear();
   if (probe.kind == ProbeKind::disc)
     result.remainder = smooth_mean(scene, probe).remainder;
   return result;
