@@ -567,6 +567,27 @@ TEST(EnergyRule, EnclosesEnergiesOfDisplacements)
   }
 }
 
+/** J(u_N) is what the rule of the stiffness says: the interval of J(u) has what that misses, though u_N is admissible. */
+TEST(EnergyRule, EntersTheIntervalOfTheEnergy)
+{
+  each_step<2>(scene_of(ring({{"Geometry/Subdivisions", "1, 1"},
+                              {"Boundary inner/Pressure", "1"},
+                              {"Boundary start/Symmetry", "true"},
+                              {"Boundary end/Symmetry", "true"},
+                              {"Adaptivity/Start degree", "2"},
+                              {"Adaptivity/Maximum steps", "1"}})),
+               [](const StepReport<2> &step)
+               {
+                 ASSERT_TRUE(step.bound) << step.no_bound;
+                 const Solution<2> solution = step.solution();
+                 const double missed = missed_energy(solution, solution.u) / 2;
+                 EXPECT_GT(missed, 0.);
+                 EXPECT_NEAR(step.bound->energy_above, missed, 1e-12 * missed);
+                 EXPECT_NEAR(step.bound->energy_below, step.bound->energy + missed,
+                             1e-12 * step.bound->energy);
+               });
+}
+
 /** Of a square the number is known; on each cell random q and v meet the inequality. */
 TEST(CellConstants, BoundWhatIsAntisymmetric)
 {
