@@ -657,6 +657,15 @@ TEST(Intervals, HoldMeansAlongCurves)
   expect_that_all_meet(of_disc);
   EXPECT_NE(in_plate("1.2, 0.2").none.find("the disc reaches into cells with curved edges"),
             std::string::npos);
+  const Numbers on_plate = means({{"Boundary inner/Pressure", ""},
+                                  {"Boundary inner/Rigid", "true"},
+                                  {"Boundary inner/Force", "1; 0"},
+                                  {"Boundary start/Symmetry", "false"},
+                                  {"Boundary outer/Displacement", "0; 0"},
+                                  {"Adaptivity/Maximum steps", "1"}});
+  EXPECT_NE(on_plate.none.find("probe in: a rigid plate along a curve may turn"), std::string::npos)
+      << on_plate.none;
+  EXPECT_EQ(on_plate.intervals.count("in.x"), 0U);
 }
 
 /** Along a curve in contact both components are prescribed, for the normal between nodes is none of w; only moments turn along it. */
