@@ -55,7 +55,7 @@ EXAMPLES = {
     ("Output", "Mesh picture"): "true",
     ("Output", "Contact tables"): "false",
     ("Output", "Report"): "true", ("Output", "Reference solution"): "true", ("Error", "Bound"): "false",
-    ("Error", "Bound on distorted cells"): "true",
+    ("Error", "Coupling"): "localised", ("Error", "Bound on distorted cells"): "true",
     ("Error", "Reference solution"): "output/han-6-12/reference.dat"}
 
 # Scenes in which entries of the other shapes are tried.

@@ -232,7 +232,7 @@ try
   result.why = couple.unbounded_at(chi);
   if (result.why.empty())
   {
-    result.coupling = couple(chi);
+    set_coupling(result, couple, solution.scene, chi, {});
     const double total = result.coupling <= largest_coupling
                              ? bound(nullptr)
                              : std::numeric_limits<double>::infinity();
@@ -249,7 +249,8 @@ try
   const SlipZones zones = slip_zones(solution, contact);
   if (zones.contradicts || !couple.unbounded_at(zones.direction, zones.sticks).empty())
     return;
-  const double known = std::exchange(result.coupling, couple(zones.direction, zones.sticks));
+  const double known = result.coupling;
+  set_coupling(result, couple, solution.scene, zones.direction, zones.sticks);
   const double total = result.coupling <= largest_coupling
                            ? bound(&zones.direction)
                            : std::numeric_limits<double>::infinity();
@@ -267,5 +268,22 @@ try
 catch (const NumericalFailure &failure) // what is left needs no coupling
 {
   result.why = std::string("the coupling of friction is not known: ") + failure.what();
+}
+
+void CoulombBounds::set_coupling(ErrorBound &result, const CoulombCoupling &couple,
+                                 const Scene<2> &scene, const SlipDirection &chi,
+                                 const std::vector<bool> &sticks)
+{
+  result.coupling_known = "estimated";
+  if (scene.localised_coupling)
+  {
+    if (!strip)
+      strip.emplace(scene);
+    result.coupling_known =
+        strip->why_none.empty() ? "finite part computed" : "estimated, since " + strip->why_none;
+  }
+  result.coupling = scene.localised_coupling && strip->why_none.empty()
+                        ? couple.localised(*strip, chi, sticks).above
+                        : couple(chi, sticks);
 }
 } // namespace hpvi

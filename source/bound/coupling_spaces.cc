@@ -51,21 +51,29 @@ bool factor(FullMatrix<double> &A)
   return A.m() == 0 || cholesky(A.m(), &A(0, 0), A.m());
 }
 
-/** B' A^-1 B, A positive definite. */
-FullMatrix<double> reduced(FullMatrix<double> A, const FullMatrix<double> &B)
+} // namespace
+
+FullMatrix<double> reduced(FullMatrix<double> A, const FullMatrix<double> &B,
+                           const FullMatrix<double> &C)
 {
-  const unsigned int n = B.m(), m = B.n();
-  FullMatrix<double> result(m, m);
-  if (n == 0 || m == 0)
+  const unsigned int n = B.m(), m = B.n(), k = C.n();
+  FullMatrix<double> result(m, k);
+  if (n == 0 || m == 0 || k == 0)
     return result;
   if (!factor(A)) // its lower triangle by columns is the upper one of deal.II's rows
     throw NumericalFailure("the compliance of contact is not regular");
-  std::vector<double> Z(std::size_t(n) * m);
-  for (unsigned int j = 0; j < m; ++j)
-    for (unsigned int i = 0; i < n; ++i)
-      Z[std::size_t(j) * n + i] = B(i, j);
-  solve_triangular('N', n, m, {&A(0, 0), n}, Z.data(), n);
-  multiply('T', 'N', m, m, n, 1., {Z.data(), n}, {Z.data(), n}, 0., &result(0, 0), m);
+  const auto solved = [&](const FullMatrix<double> &right)
+  {
+    std::vector<double> Z(std::size_t(n) * right.n());
+    for (unsigned int j = 0; j < right.n(); ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        Z[std::size_t(j) * n + i] = right(i, j);
+    solve_triangular('N', n, right.n(), {&A(0, 0), n}, Z.data(), n);
+    return Z;
+  };
+  const std::vector<double> Z = solved(B), Y = &B == &C ? Z : solved(C);
+  // deal.II's rows are columns here.
+  multiply('T', 'N', k, m, n, 1., {Y.data(), n}, {Z.data(), n}, 0., &result(0, 0), k);
   return result;
 }
 
@@ -78,8 +86,6 @@ FullMatrix<double> part(const FullMatrix<double> &A, const std::vector<unsigned 
       result(i, j) = A(rows[i], columns[j]);
   return result;
 }
-
-} // namespace
 
 double largest_of_tridiagonal(const std::vector<double> &diagonal,
                               const std::vector<double> &beside)
@@ -112,7 +118,8 @@ double largest_of_tridiagonal(const std::vector<double> &diagonal,
 
 ContactCompliance::ContactCompliance(const Scene<2> &scene,
                                      std::shared_ptr<const Spaces<2>> all_spaces,
-                                     CondensedElements<2> &elements)
+                                     CondensedElements<2> &elements,
+                                     const std::function<void(const Solution<2> &)> &response)
     : spaces(std::move(all_spaces))
 {
   const Discretisation<2> discretisation(scene, spaces, elements);
@@ -127,18 +134,39 @@ ContactCompliance::ContactCompliance(const Scene<2> &scene,
       S(i, j) = reduction.S()(i, j);
     scale = std::max(scale, S(i, i));
   }
-  if (!discretisation.free_motions)
-    return;
   // Tractions that push along a free motion have no finite compliance.
-  const FullMatrix<double> &G = discretisation.free_motions->balance().G;
-  for (unsigned int m = 0; m < G.n(); ++m)
+  const auto &motions = discretisation.free_motions;
+  const unsigned int n_motions = motions ? motions->balance().G.n() : 0;
+  FullMatrix<double> along(n, n_motions); // times the root of that compliance, over the motion
+  std::vector<double> amounts(n_motions);
+  for (unsigned int m = 0; m < n_motions; ++m)
   {
+    const FullMatrix<double> &G = motions->balance().G;
     double most = 0;
     for (unsigned int i = 0; i < n; ++i)
       most = std::max(most, std::abs(G(i, m)));
-    for (unsigned int i = 0; most > 0. && i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        S(i, j) += hold * scale * (G(i, m) / most) * (G(j, m) / most);
+    amounts[m] = most > 0. ? std::sqrt(hold * scale) / most : 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      along(i, m) = amounts[m] * G(i, m);
+  }
+  if (n_motions > 0)
+    along.mTmult(S, along, /*adding=*/true);
+  if (!response)
+    return;
+  const Vector<double> at_rest =
+      discretisation.displacement(Vector<double>(discretisation.unknowns.n()));
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    Vector<double> z(n), of_motions(n_motions);
+    z[i] = -1.;
+    Vector<double> x = reduction.response(z);
+    for (unsigned int m = 0; m < n_motions; ++m)
+      of_motions[m] = amounts[m] * along(i, m);
+    if (n_motions > 0)
+      x += motions->at_unknowns(of_motions);
+    Vector<double> u = discretisation.displacement(x);
+    u -= at_rest;
+    response(Solution<2>(scene, spaces, std::move(u), std::move(z)));
   }
 }
 
@@ -154,11 +182,12 @@ const CouplingMatrices &ContactCompliance::matrices(const std::vector<unsigned i
   else
   {
     FullMatrix<double> C = part(S, friction, friction), E(S.m(), pressures.size());
+    const FullMatrix<double> of_held = part(S, held, friction);
     if (!held.empty())
-      C.add(-1., reduced(part(S, held, held), part(S, held, friction)));
+      C.add(-1., reduced(part(S, held, held), of_held, of_held));
     for (unsigned int j = 0; j < pressures.size(); ++j)
       E(pressures[j], j) = 1.;
-    kept.push_front({friction, held, CouplingMatrices(C, reduced(S, E))});
+    kept.push_front({friction, held, CouplingMatrices(C, reduced(S, E, E))});
     if (kept.size() > 2)
       kept.pop_back();
   }
@@ -177,6 +206,42 @@ CouplingMatrices::CouplingMatrices(const FullMatrix<double> &C, FullMatrix<doubl
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = j; i < n; ++i)
       L[std::size_t(j) * n + i] = K(j, i);
+}
+
+FullMatrix<double> CouplingMatrices::symmetric(const Vector<double> &D) const
+{
+  const unsigned int n = D.size();
+  FullMatrix<double> scaled(n, n), half(n, n), result(n, n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n; ++j)
+      scaled(i, j) = D[i] * Y(i, j) * D[j];
+  half = times_factor(scaled);
+  FullMatrix<double> other(n, n);
+  other.copy_transposed(half);
+  return times_factor(other);
+}
+
+FullMatrix<double> CouplingMatrices::times_factor(const FullMatrix<double> &A) const
+{
+  const unsigned int n = A.m(), m = A.n();
+  FullMatrix<double> result(n, m);
+  multiply('N', 'N', m, n, n, 1., {&A(0, 0), m}, {L.data(), n}, 0., &result(0, 0), m);
+  return result;
+}
+
+FullMatrix<double> CouplingMatrices::by_factor(const FullMatrix<double> &A) const
+{
+  const unsigned int n = A.m(), m = A.n();
+  FullMatrix<double> result(n, m);
+  std::vector<double> columns(std::size_t(n) * m);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < m; ++j)
+      columns[std::size_t(j) * n + i] = A(i, j);
+  solve_triangular('N', n, m, {L.data(), n}, columns.data(), n);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < m; ++j)
+      result(i, j) = columns[std::size_t(j) * n + i];
+  return result;
 }
 
 // Lanczos' method on L' D Y D L, whole sequence kept orthogonal: S has some hundred rows.
@@ -438,10 +503,9 @@ std::vector<EdgePart> CouplingSpaces::wanted_edges(const FrictionAlong &friction
 }
 
 std::shared_ptr<const Spaces<2>>
-CouplingSpaces::space_with(const std::vector<EdgePart> &edges) const
+CouplingSpaces::space_with(const std::vector<EdgePart> &edges,
+                           std::shared_ptr<Triangulation<2>> mesh) const
 {
-  const auto mesh = std::make_shared<Triangulation<2>>();
-  make_mesh(*scene, *mesh);
   for (bool is_changed = true; is_changed;)
   {
     is_changed = false;
@@ -474,11 +538,24 @@ ContactCompliance &CouplingSpaces::of(const Solution<2> &solution, const Frictio
     kept.splice(kept.begin(), kept, known);
   else
   {
+    const auto mesh = std::make_shared<Triangulation<2>>();
+    make_mesh(*scene, *mesh);
     kept.emplace_front(std::piecewise_construct, std::forward_as_tuple(edges),
-                       std::forward_as_tuple(*scene, space_with(edges), *elements));
+                       std::forward_as_tuple(*scene, space_with(edges, mesh), *elements));
     if (kept.size() > 4)
       kept.pop_back();
   }
   return kept.front().second;
+}
+
+ContactCompliance CouplingSpaces::on(
+    std::shared_ptr<Triangulation<2>> mesh, const Solution<2> &solution,
+    const FrictionAlong &friction,
+    const std::function<std::function<void(const Solution<2> &)>(const Spaces<2> &)> &response)
+{
+  begin(solution);
+  const std::shared_ptr<const Spaces<2>> spaces =
+      space_with(wanted_edges(friction), std::move(mesh));
+  return ContactCompliance(*scene, spaces, *elements, response(*spaces));
 }
 } // namespace hpvi

@@ -105,7 +105,8 @@ void take_bound(const BoundOfStep &bound, StepReport<dim> &step, PastStep<dim> &
   step.relative_bound = past.relative_bound;
   if (const auto &known = bound.bound ? bound.bound : bound.estimate)
     step.equilibrated = {known->estimate, part_of(known->estimate, step.energies.norm),
-                         known->coupling, text(known->kind), known->zones};
+                         known->coupling, text(known->kind),
+                         known->zones,    known->coupling_known};
 }
 
 /** eta_K by global_cell_indices(): the same cells are marked on any number of processes. Collective. */

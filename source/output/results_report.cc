@@ -43,13 +43,13 @@ std::string at_most(const double value)
 
 /**
  * What is known of the error, as in "at most 0.31 % of the solution, guaranteed". @p kind: text(BoundKind); @p size: of the error with its
- * unit, as at_most() has it; @p coupling and @p zones as in ErrorBound. Never that a bound is one without the coupling that it needs.
+ * unit, as at_most() has it; @p coupling, @p how it is known and @p zones as in ErrorBound. Never that a bound is one without the coupling that it needs.
  */
 std::string error_in_words(const std::string &kind, const std::string &size, const double coupling,
-                           const std::string &zones)
+                           const std::string &how, const std::string &zones)
 {
   const std::string known =
-      "if the coupling is at most " + at_most(coupling) + " (estimated; it must be below 2)";
+      "if the coupling is at most " + at_most(coupling) + " (" + how + "; it must be below 2)";
   if (kind == "coupling")
     return "at most " + size + " for every solution of Coulomb's law, bounded " + known;
   if (kind == "zones")
@@ -155,13 +155,13 @@ std::string extremes_in_words(const StepReport<dim> &step)
 template <int dim>
 std::string bound_of_coulomb(const StepReport<dim> &step)
 {
-  const auto &[norm, relative, coupling, kind, zones] = step.equilibrated;
+  const auto &[norm, relative, coupling, kind, zones, known] = step.equilibrated;
   if (kind.empty() || kind == text(BoundKind::energy))
     return {};
   const std::string size =
       step.bound ? at_most(100 * step.relative_bound) : text(100 * relative, 2);
   return "error in the energy norm: " +
-         error_in_words(kind, size + " % of the solution", coupling, zones) + "\n";
+         error_in_words(kind, size + " % of the solution", coupling, known, zones) + "\n";
 }
 } // namespace
 

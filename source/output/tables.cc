@@ -161,7 +161,7 @@ Record bound_record(const StepReport<dim> &step)
 template <int dim>
 Record equilibrated_record(const StepReport<dim> &step)
 {
-  const auto &[norm, relative, coupling, kind, zones] = step.equilibrated;
+  const auto &[norm, relative, coupling, kind, zones, known] = step.equilibrated;
   return {{"error_estimate_equilibrated", norm}, {"coupling", coupling}, {"bound_kind", kind}};
 }
 

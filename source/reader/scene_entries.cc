@@ -286,6 +286,13 @@ void add_program_entries(std::vector<Entry> &entries)
         "marked by Indicator = residual then, and where Tolerance on asks for the bound or an "
         "interval the first step has it, too, and those that may meet the tolerance by their "
         "indicator."},
+       {"Error", "Coupling", "estimated", one_of({"estimated", "localised"}),
+        "estimated or localised",
+        "What the bound of Coulomb's law knows of the coupling of friction and pressure. "
+        "estimated: a matrix of its own mesh, and a twentieth more. localised: from above, by the "
+        "known couplings of both ends of contact, and a matrix for what they leave; where contact "
+        "is one straight side of one isotropic body without springs, with free, held or symmetric "
+        "sides at right angles beside it. It takes up to some seconds a bound."},
        {"Error", "Bound on distorted cells", "false", boolean, yes_no,
         "Has no effect any more: bodies of any shape have their bound."},
        {"Error", "Reference solution", "", matching(Patterns::Anything()), "a file name or nothing",
@@ -300,7 +307,8 @@ bool is_of_the_plane(const Entry &entry)
           (entry.name.rfind("QP ", 0) == 0 || entry.name == "Diagonal scaling" ||
            entry.name == "Coulomb solver" || entry.name == "Check uniqueness" ||
            entry.name == "Threads")) ||
-         (entry.section == "Error" && entry.name == "Bound on distorted cells");
+         (entry.section == "Error" &&
+          (entry.name == "Bound on distorted cells" || entry.name == "Coupling"));
 }
 
 /** The same entries for a body in space: points of three components, a method that it offers. */

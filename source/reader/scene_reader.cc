@@ -206,6 +206,7 @@ void read_method(const Parameters &parameters, Scene<dim> &scene)
   choose(scene.solver.linear, "Solver", "Linear", linear_names);
   if constexpr (dim == 2)
   {
+    scene.localised_coupling = parameters.text("Error", "Coupling") == "localised";
     choose(scene.solver.qp_solver, "Solver", "QP solver", qp_solver_names);
     choose(scene.solver.coulomb_method, "Solver", "Coulomb solver", coulomb_method_names);
   }

@@ -54,6 +54,16 @@ class Ends(RunTest):
         self.assertEqual([line for line in printed.splitlines() if line.startswith("warning: ") and "olerance" in line], [])
         self.assertLess(float(self.rows()[-1]["estimate_relative"]), 1e-3)
 
+    def test_how_the_coupling_is_known(self):
+        law = ("Boundary bottom/Contact=unilateral", "Boundary bottom/Friction bound=", "Boundary bottom/Friction coefficient=0.3",
+               "Boundary top/Displacement=0.03; -0.02", "Adaptivity/Maximum steps=2")
+        for settings, known in (((), "estimated"),
+                                (("Error/Coupling=localised",), "finite part computed"),
+                                (("Error/Coupling=localised", "Boundary left/Spring=1; 1"), "estimated, since there are springs")):
+            printed = self.run_scene(*law, *settings)
+            self.assertEqual(printed.count(f" ({known}; it must be below 2)"), 1, printed)
+            self.assertEqual(self.summary()["coupling_known"], known)
+
     def last_step(self, *settings, known=(-1,)):
         """Rows with the bound of the last step beside those with the bound of each, marked alike: the same but for it."""
         self.run_scene("Adaptivity/Indicator=residual", *settings)

@@ -169,7 +169,7 @@ class Summaries(RunTest):
         summary = self.summary()
         self.assertEqual(list(summary), [*self.members, *["history_largest"] * (summary["loading"] is not None)])
         self.assertEqual(summary["status"], status)
-        of_coulomb = {"error_estimate_equilibrated", "coupling", "zones_assumed"}
+        of_coulomb = {"error_estimate_equilibrated", "coupling", "zones_assumed", "coupling_known"}
         self.assertEqual([name for name in summary if summary[name] is None and name not in of_coulomb], list(absent))
         self.assertEqual(summary["error_estimate_equilibrated"] is None, summary["error_bound"] is None)
         self.assertIsNone(summary["coupling"] or summary["zones_assumed"])

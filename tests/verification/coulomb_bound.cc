@@ -23,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <set>
 
 namespace
 {
@@ -388,6 +389,102 @@ TEST(Coupling, IsThatOfFarFinerSpaces)
   }
 }
 
+/** A matrix in blocks: the complement of one vector gets another value, which the rest is coupled to. */
+TEST(Coupling, TakesABoundOnAComplement)
+{
+  FullMatrix<double> M(2, 2), W(2, 3);
+  M(0, 0) = 1;
+  M(0, 1) = M(1, 0) = 2;
+  M(1, 1) = 7;
+  for (unsigned int j = 0; j < 3; ++j)
+    W(0, j) = 1. + j;
+  const auto [largest, inside] = with_complement(M, W, 9.);
+  EXPECT_NEAR(inside, 7, 1e-12);
+  EXPECT_NEAR(largest, 5 + std::sqrt(20.), 1e-12);
+}
+
+/** Sides beside contact by what holds them, and no strip where no wedge is known. */
+TEST(Coupling, KnowsTheWedgesBesideContact)
+{
+  const auto strip = [](const std::string &name, const Overrides &changes = {})
+  { return ContactStrip(shipped_scene(name, changes)); };
+  const ContactStrip plate = strip("ssnv128"), punch = strip("punch-friction"), key = strip("key"),
+                     clamped = strip("ssnv128", {{"Boundary right/Displacement", "0; 0"}});
+  const auto in_order = [](std::array<double, 2> wedges)
+  {
+    std::sort(wedges.begin(), wedges.end());
+    return wedges;
+  };
+  const auto has = [](const ContactStrip &strip, const double length, const double height)
+  {
+    EXPECT_EQ(strip.why_none, "");
+    EXPECT_NEAR(strip.length, length, 1e-9 * length);
+    EXPECT_NEAR(strip.height, height, 1e-9 * height);
+  };
+  has(plate, 40, 40);
+  has(key, 30, 5); // to where the grip begins
+  EXPECT_NEAR(in_order(plate.wedges)[1], 1.2967, 1e-4);
+  EXPECT_NEAR(in_order(punch.wedges)[0], 1.0435, 1e-4);
+  EXPECT_GT(in_order(clamped.wedges)[0], in_order(plate.wedges)[0] - 1e-12);
+  EXPECT_EQ(in_order(key.wedges)[0], in_order(key.wedges)[1]);
+  EXPECT_EQ(strip("brake-shoe").why_none, "not all cells are parallelograms");
+  EXPECT_EQ(strip("blocks", rubbing_blocks.changes).why_none,
+            "bodies touch each other");
+  EXPECT_EQ(strip("askew").why_none, "contact is along a direction");
+  EXPECT_EQ(
+      strip("ssnv128", {{"Boundary left/Contact", "unilateral"}, {"Boundary left/Traction", ""}})
+          .why_none,
+      "a side at the end of contact has a condition for which no wedge is known");
+  EXPECT_EQ(
+      strip("ssnv128", {{"Boundary left/Spring", "1; 1"}, {"Boundary left/Traction", ""}}).why_none,
+      "there are springs");
+}
+
+/**
+ * From above no less than in far finer spaces, which take it from below, and not much more; what moments do not see is below kappa, also
+ * where the whole is not. Says each value.
+ */
+TEST(Coupling, IsEnclosedFromAbove)
+{
+  for (const auto &[name, most] : std::map<std::string, double>{{"ssnv128", 1.12},
+                                                                {"punch-friction", 1.06},
+                                                                {"brake-pad", 1.12},
+                                                                {"slope", 1.12},
+                                                                {"retaining", 1.12},
+                                                                {"published/spence", 1.12}})
+  {
+    SCOPED_TRACE(name);
+    const Scene<2> scene = shipped_scene(name, {{"Adaptivity/Maximum steps", "3"},
+                                                {"Adaptivity/Indicator", "residual"},
+                                                {"Error/Bound", "false"}});
+    last_step<2>(scene,
+                 [&, name = name, most = most](const StepReport<2> &step)
+                 {
+                   CondensedElements<2> elements(scene, step.solution().tables);
+                   const FrictionOfStep now(step.solution(), elements);
+                   const bool has_zones = name[0] == 's' || name[0] == 'r' || name[0] == 'p';
+                   const SlipDirection &chi = has_zones ? now.zones.direction : now.chi;
+                   const std::vector<bool> sticks =
+                       has_zones ? now.zones.sticks : std::vector<bool>();
+                   CouplingSpaces own, fine({8, 10, 0.05, 0.25});
+                   const std::clock_t begin = std::clock();
+                   const CoulombCoupling::Localised found =
+                       CoulombCoupling(now.law, own).localised(ContactStrip(scene), chi, sticks);
+                   const double seconds = double(std::clock() - begin) / CLOCKS_PER_SEC,
+                                of_fine = CoulombCoupling(now.law, fine).of_matrices(chi, sticks);
+                   RecordProperty(std::filesystem::path(name).filename().string(),
+                                  "far finer " + text(of_fine, 5) + ", above " +
+                                      text(found.above, 5) + ", kappa " + text(found.kappa, 5) +
+                                      ", complement " + text(found.on_complement, 5) + ", cells " +
+                                      text(found.n_cells) + ", seconds " + text(seconds, 2));
+                   EXPECT_GT(found.above, of_fine);
+                   EXPECT_LT(found.above, most * of_fine);
+                   EXPECT_GT(found.on_complement, 0.5 * found.kappa);
+                   EXPECT_LT(found.on_complement, found.kappa);
+                 });
+  }
+}
+
 /** Edges of any mesh by places on those of the coarse one, on both sides of a contact: friction there is that of the point. */
 TEST(Coupling, KnowsPlacesOnBothSides)
 {
@@ -484,6 +581,41 @@ TEST(Coupling, KeepsItsSpaceWhileOnlyChiChanges)
         EXPECT_TRUE(n_there == 1 || n_there == 2 || n_there == 4) << n_there;
       });
   EXPECT_LT(least, 9.); // 10 on the coarse mesh
+}
+
+/** Edges where chi varies are bisected by threes: a step whose edges there are half as long has the same space. */
+TEST(Coupling, KeepsItsSpaceWhereEdgesAreBisectedOnceMore)
+{
+  const Scene<2> scene =
+      shipped_scene("ssnv128", {{"Adaptivity/Maximum steps", "6"}, {"Error/Bound", "false"}});
+  CouplingResolution resolution;
+  resolution.layers = 0;
+  CouplingSpaces spaces(resolution);
+  std::map<int, const ContactCompliance *> by_three;
+  std::set<double> lengths;
+  AdaptiveSolver<2>(scene).run(
+      [&](const StepReport<2> &step)
+      {
+        const std::vector<ContactFace<2>> &faces = step.solution().contact_space.faces();
+        constexpr double place = 0.7; // near the free end, which every step bisects
+        double length = 0;
+        SlipDirection jumps;
+        for (const ContactFace<2> &face : faces)
+        {
+          jumps.push_back([&face](const double s)
+                          { return std::tanh(1e6 * (face.point(s)[0] - place)); });
+          if ((face.point(0.)[0] - place) * (face.point(1.)[0] - place) < 0.)
+            length = face.length;
+        }
+        lengths.insert(length);
+        const ContactCompliance *const space =
+            &spaces.of(step.solution(), FrictionAlong(faces, jumps, {}));
+        const auto [known, is_new] =
+            by_three.emplace(std::floor(std::log2(1.001 * length) / 3), space);
+        EXPECT_EQ(known->second, space) << length;
+      });
+  EXPECT_LT(by_three.size(), lengths.size());
+  EXPECT_GT(by_three.size(), 1U);
 }
 
 /** Where the body can slide along a support that holds it down, at an end of contact, no number is one; nor is one where mu_f jumps. */

@@ -2,7 +2,7 @@
 #ifndef hpvi_coulomb_bound_h
 #define hpvi_coulomb_bound_h
 
-#include <hpvi/bound/coupling_spaces.h>
+#include <hpvi/bound/coulomb_coupling.h>
 #include <hpvi/bound/error_bound.h>
 
 #include <optional>
@@ -29,9 +29,6 @@ struct CoulombTerms
  */
 double coulomb_bound(double coupling, const CoulombTerms &terms);
 
-/** The coupling above which (C) is finite and of no use. */
-constexpr double largest_coupling = 1.8;
-
 /**
  * The limit of friction that an admissible pressure allows, g + mu_f pi, in the place of the law: the solution of a problem of Tresca's
  * law that has the same stress, friction and pressure. Nothing where no friction knows the pressure.
@@ -51,7 +48,11 @@ public:
            double A, double b);
 
 private:
+  void set_coupling(ErrorBound &result, const CoulombCoupling &couple, const Scene<2> &scene,
+                    const SlipDirection &chi, const std::vector<bool> &sticks);
+
   CouplingSpaces spaces;
+  std::optional<ContactStrip> strip; ///< of the scene, where it asks for one
 };
 } // namespace hpvi
 

@@ -2,7 +2,7 @@
 #ifndef hpvi_coulomb_coupling_h
 #define hpvi_coulomb_coupling_h
 
-#include <hpvi/bound/coupling_spaces.h>
+#include <hpvi/bound/localised_coupling.h>
 
 #include <memory>
 #include <string>
@@ -10,6 +10,9 @@
 
 namespace hpvi
 {
+/** The coupling above which a bound is finite and of no use. */
+constexpr double largest_coupling = 1.8;
+
 /** theta of an elastic half plane for mu_f chi = 1: `(1 - beta^2)^{-1/2}`, `beta = (kappa - 1)/(kappa + 1)` with Kolosov's kappa; orthotropic ones: 1. */
 double half_plane_coupling(const Material &material);
 
@@ -52,6 +55,21 @@ public:
 
   /** Of the matrices alone, without factor and closed forms. */
   double of_matrices(const SlipDirection &chi, const std::vector<bool> &sticks = {}) const;
+
+  /** theta from above. */
+  struct Localised
+  {
+    double above =
+        0; ///< theta is no more, as far as the finite matrix has all that is not on the complement
+    double kappa =
+        0; ///< |T y| <= kappa |y| for all y on the complement: their moments on cells vanish
+    double on_complement = 0; ///< of the matrix there, which is no more than kappa
+    unsigned int n_cells = 0;
+  };
+
+  /** Where contact is a strip; no less than the estimate, and this alone where it is too large for a bound. */
+  Localised localised(const ContactStrip &strip, const SlipDirection &chi,
+                      const std::vector<bool> &sticks = {}) const;
 
   /**
    * Where theta is infinite although matrices need not show it, in words: contact ends where a support holds u_n and leaves u_t, or at

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <list>
 #include <memory>
 #include <optional>
@@ -16,6 +17,16 @@
 
 namespace hpvi
 {
+/** `B' A^-1 C`, A symmetric. Throws NumericalFailure where it is not positive definite. */
+dealii::FullMatrix<double> reduced(dealii::FullMatrix<double> A,
+                                   const dealii::FullMatrix<double> &B,
+                                   const dealii::FullMatrix<double> &C);
+
+/** Rows and columns of a matrix. */
+dealii::FullMatrix<double> part(const dealii::FullMatrix<double> &A,
+                                const std::vector<unsigned int> &rows,
+                                const std::vector<unsigned int> &columns);
+
 /** The largest eigenvalue of a symmetric tridiagonal matrix, by bisection of Sturm's sequence. */
 double largest_of_tridiagonal(const std::vector<double> &diagonal,
                               const std::vector<double> &beside);
@@ -30,6 +41,13 @@ public:
   /** Of `C D Y D`: by Lanczos' method, to 1e-8. */
   double largest_eigenvalue(const dealii::Vector<double> &D) const;
 
+  /** `L' D Y D L`, `C = L L'`: a symmetric matrix with the same eigenvalues. */
+  dealii::FullMatrix<double> symmetric(const dealii::Vector<double> &D) const;
+
+  /** `L' A` and `L^-1 A`. */
+  dealii::FullMatrix<double> times_factor(const dealii::FullMatrix<double> &A) const;
+  dealii::FullMatrix<double> by_factor(const dealii::FullMatrix<double> &A) const;
+
 private:
   std::vector<double> L; ///< `C = L L'`, by columns, zeros included
   dealii::FullMatrix<double> Y;
@@ -41,9 +59,18 @@ private:
 class ContactCompliance
 {
 public:
-  /** Stabilised where a motion is free, which leaves tractions that push along it no finite compliance. */
+  /**
+   * Stabilised where a motion is free, which leaves tractions that push along it no finite compliance. @p response hears the
+   * displacement of each multiplier.
+   */
   ContactCompliance(const Scene<2> &scene, std::shared_ptr<const Spaces<2>> spaces,
-                    CondensedElements<2> &elements);
+                    CondensedElements<2> &elements,
+                    const std::function<void(const Solution<2> &)> &response = {});
+
+  const dealii::FullMatrix<double> &matrix() const ///< S
+  {
+    return S;
+  }
 
   /**
    * `C = S_FF - S_Fb S_bb^-1 S_bF` and `Y = (S^-1)_PP` for friction F, its pressures P and b where v is @p held. The last two are
@@ -187,10 +214,17 @@ public:
   /** The space for friction of @p solution; throws what Discretisation throws. Good until four other ones have been asked for. */
   ContactCompliance &of(const Solution<2> &solution, const FrictionAlong &friction);
 
+  /** Likewise on a mesh of the scene that is fine enough in other places; each time anew. */
+  ContactCompliance
+  on(std::shared_ptr<dealii::Triangulation<2>> mesh, const Solution<2> &solution,
+     const FrictionAlong &friction,
+     const std::function<std::function<void(const Solution<2> &)>(const Spaces<2> &)> &response);
+
 private:
   void begin(const Solution<2> &solution);
   std::vector<EdgePart> wanted_edges(const FrictionAlong &friction) const;
-  std::shared_ptr<const Spaces<2>> space_with(const std::vector<EdgePart> &edges) const;
+  std::shared_ptr<const Spaces<2>> space_with(const std::vector<EdgePart> &edges,
+                                              std::shared_ptr<dealii::Triangulation<2>> mesh) const;
 
   const CouplingResolution resolution;
 

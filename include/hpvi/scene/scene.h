@@ -247,6 +247,7 @@ struct Scene
   Adaptivity adaptivity;
   bool error_bound = dim == 2;   ///< compute ErrorBound where there is one
   bool error_bound_last = false; ///< of the last step alone, and where the tolerance is near
+  bool localised_coupling = false; ///< of Coulomb's law from above, where CoulombCoupling can
   bool intervals = true;         ///< of forces and means, where there is an ErrorBound
   SolverSettings solver;
   OutputSettings output;

@@ -122,7 +122,7 @@ class Teller:
         if bound:
             relative = bound.get("relative")
             size = f"{words.at_most(100 * relative)} % of the solution" if relative is not None else f"{words.at_most(bound['energy_norm'])}"
-            text = "Error in the energy norm: " + words.error(bound["kind"], size, summary.get("coupling"), summary.get("zones_assumed"))
+            text = "Error in the energy norm: " + words.error(bound["kind"], size, summary.get("coupling"), summary.get("zones_assumed"), summary.get("coupling_known"))
             return f"{text}; but the run contradicts it, see the warnings." if summary.get("contradiction") else f"{text}."
         for estimate, by in (((summary.get("error_estimate_equilibrated") or {}).get("relative"), "a stress in equilibrium"),
                              (self.last.get("estimate_relative"), "the indicator, which is no bound")):

@@ -49,9 +49,9 @@ def at_most(value):
     return digits(unit * math.ceil(value / unit - 1e-9), 2)
 
 
-def error(kind, size, coupling=None, zones=None):
+def error(kind, size, coupling=None, zones=None, known=None):
     """An error of this size with the word for what is known of it: guaranteed, bounded, if, estimated."""
-    known = f"if the coupling is at most {at_most(coupling or math.nan)} (estimated; it must be below 2)"
+    known = f"if the coupling is at most {at_most(coupling or math.nan)} ({known or 'estimated'}; it must be below 2)"
     if kind == "coupling":
         return f"at most {size} for every solution of Coulomb's law, bounded {known}"
     if kind == "zones":
