@@ -52,8 +52,8 @@ struct ErrorBound
   BoundKind kind = BoundKind::energy;
   double coupling = std::numeric_limits<double>::quiet_NaN(); ///< theta under Coulomb's law [-]
   std::string coupling_known; ///< how: "estimated", "finite part computed"
-  std::string zones; ///< of BoundKind::zones: what is assumed of the solution, in words
-  std::string why;   ///< of BoundKind::estimate: why there is no bound
+  std::string zones;          ///< of BoundKind::zones: what is assumed of the solution, in words
+  std::string why;            ///< of BoundKind::estimate: why there is no bound
 
   /** Without the factor that the coupling makes; total where the law has no coupling, and where there is no bound. */
   double estimate = 0;

@@ -52,7 +52,7 @@ struct StepReport
     double norm = std::numeric_limits<double>::quiet_NaN();     ///< ErrorBound::estimate
     double relative = std::numeric_limits<double>::quiet_NaN(); ///< over |u_N|_a
     double coupling = std::numeric_limits<double>::quiet_NaN(); ///< ErrorBound::coupling
-    std::string kind, zones; ///< text(BoundKind), ErrorBound::zones
+    std::string kind, zones;    ///< text(BoundKind), ErrorBound::zones
     std::string coupling_known; ///< ErrorBound's
   };
   Equilibrated equilibrated{};

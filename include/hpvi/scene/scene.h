@@ -245,10 +245,10 @@ struct Scene
   std::shared_ptr<const ExactSolution<dim>> exact_solution; ///< null: none is known
   std::string reference_solution; ///< file of a StoredSolution to measure errors against, or empty
   Adaptivity adaptivity;
-  bool error_bound = dim == 2;   ///< compute ErrorBound where there is one
-  bool error_bound_last = false; ///< of the last step alone, and where the tolerance is near
+  bool error_bound = dim == 2;     ///< compute ErrorBound where there is one
+  bool error_bound_last = false;   ///< of the last step alone, and where the tolerance is near
   bool localised_coupling = false; ///< of Coulomb's law from above, where CoulombCoupling can
-  bool intervals = true;         ///< of forces and means, where there is an ErrorBound
+  bool intervals = true;           ///< of forces and means, where there is an ErrorBound
   SolverSettings solver;
   OutputSettings output;
   Loading<dim> loading;
