@@ -301,6 +301,14 @@ struct Box
     }
   }
 
+  /** Is a part of it in the rectangle of the strip? */
+  bool meets(const ContactStrip &strip) const
+  {
+    const double small = 1e-9 * strip.length;
+    return high[0] > small && low[0] < strip.length - small && high[1] > small &&
+           low[1] < strip.height - small;
+  }
+
   Point<2> low, high;
 };
 
@@ -314,11 +322,10 @@ CellShare share_of(const Triangulation<2>::cell_iterator &cell, const ContactStr
                    const FrictionOnStrip &friction, const Material &material)
 {
   const Box box(strip, cell);
-  const double small = 1e-9 * strip.length, x0 = std::max(0., box.low[0]),
-               x1 = std::min(strip.length, box.high[0]), y0 = std::max(0., box.low[1]),
-               y1 = std::min(strip.height, box.high[1]);
-  if (x1 < x0 + small || y1 < y0 + small)
+  if (!box.meets(strip))
     return {};
+  const double x0 = std::max(0., box.low[0]), x1 = std::min(strip.length, box.high[0]),
+               y0 = std::max(0., box.low[1]), y1 = std::min(strip.height, box.high[1]);
   const double a = numbers::PI / (2 * strip.length), b = numbers::PI / (2 * strip.height),
                c2 = square(std::cos(b * y0)), s2 = square(std::sin(b * y1)),
                sc = y0 * b <= numbers::PI / 4 && y1 * b >= numbers::PI / 4
@@ -404,7 +411,7 @@ StripMoments::StripMoments(const ContactStrip &strip, const StripCells &cells,
     const StripCells::Cell own(&cell->get_triangulation(), cell->level(), cell->index()),
         parent = cells.parent_of(own);
     const Point<2> centre = parent->center();
-    if (!strip.reaches(strip.in_frame(cell->center())))
+    if (!Box(strip, parent).meets(strip))
       continue;
     const unsigned int place = places
                                    .emplace(std::make_pair(parent->level(), parent->index()),
