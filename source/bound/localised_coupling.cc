@@ -503,7 +503,8 @@ std::pair<double, double> with_complement(const FullMatrix<double> &M, const Ful
   while (n_complement < n && eigenvalues[n_complement] < least)
     ++n_complement;
   FullMatrix<double> inner(n_complement, n_complement);
-  inner.fill(B, 0, 0, 0, 0);
+  if (n_complement > 0)
+    inner.fill(B, 0, 0, 0, 0);
   for (unsigned int i = 0; i < n_complement; ++i)
     for (unsigned int j = 0; j < n_complement; ++j)
       B(i, j) = i == j ? bound : 0.;
