@@ -15,6 +15,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
+#include <utility>
 
 namespace hpvi
 {
@@ -249,14 +251,14 @@ try
   const SlipZones zones = slip_zones(solution, contact);
   if (zones.contradicts || !couple.unbounded_at(zones.direction, zones.sticks).empty())
     return;
-  const double known = result.coupling;
+  const std::pair<double, std::string> known(result.coupling, result.coupling_known);
   set_coupling(result, couple, solution.scene, zones.direction, zones.sticks);
   const double total = result.coupling <= largest_coupling
                            ? bound(&zones.direction)
                            : std::numeric_limits<double>::infinity();
   if (!std::isfinite(total))
   {
-    result.coupling = known;
+    std::tie(result.coupling, result.coupling_known) = known;
     return;
   }
   result.total = result.radius = total;
@@ -274,16 +276,15 @@ void CoulombBounds::set_coupling(ErrorBound &result, const CoulombCoupling &coup
                                  const Scene<2> &scene, const SlipDirection &chi,
                                  const std::vector<bool> &sticks)
 {
-  result.coupling_known = "estimated";
-  if (scene.localised_coupling)
-  {
-    if (!strip)
-      strip.emplace(scene);
-    result.coupling_known =
-        strip->why_none.empty() ? "finite part computed" : "estimated, since " + strip->why_none;
-  }
-  result.coupling = scene.localised_coupling && strip->why_none.empty()
-                        ? couple.localised(*strip, chi, sticks).above
-                        : couple(chi, sticks);
+  if (scene.localised_coupling && !strip)
+    strip.emplace(scene);
+  const bool is_localised = strip && strip->why_none.empty();
+  result.coupling =
+      is_localised ? couple.localised(*strip, chi, sticks).above : couple(chi, sticks);
+  // What is too large for a bound may be the estimate alone.
+  result.coupling_known =
+      is_localised && result.coupling <= largest_coupling ? "finite part computed" : "estimated";
+  if (strip && !is_localised)
+    result.coupling_known += ", since " + strip->why_none;
 }
 } // namespace hpvi

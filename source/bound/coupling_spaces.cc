@@ -211,7 +211,7 @@ CouplingMatrices::CouplingMatrices(const FullMatrix<double> &C, FullMatrix<doubl
 FullMatrix<double> CouplingMatrices::symmetric(const Vector<double> &D) const
 {
   const unsigned int n = D.size();
-  FullMatrix<double> scaled(n, n), half(n, n), result(n, n);
+  FullMatrix<double> scaled(n, n), half(n, n);
   for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)
       scaled(i, j) = D[i] * Y(i, j) * D[j];
