@@ -237,6 +237,54 @@ double CoulombCoupling::of_matrices(const SlipDirection &chi, const std::vector<
                                                                        all.coefficients.end()))));
 }
 
+/**
+ * The displacements whose products with v are its moments and those of T v, in coordinates in which |v| is Euclid's norm: three kinds of v,
+ * nine of T v, in units of their own; the longest of each counts alike.
+ */
+FullMatrix<double> CoulombCoupling::moment_columns(ContactCompliance &compliance,
+                                                   const Unknowns &all,
+                                                   const CouplingMatrices &matrices,
+                                                   const Vector<double> &D,
+                                                   const std::vector<std::vector<double>> &rows)
+{
+  const unsigned int n = all.friction.size(), n_moments = rows[0].size(),
+                     n_cells = n_moments / StripMoments::n_kinds;
+  FullMatrix<double> R(rows.size(), n_moments), E(rows.size(), n);
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    std::copy(rows[i].begin(), rows[i].end(), R.begin(i));
+  for (unsigned int j = 0; j < n; ++j)
+    E(all.pressures[j], j) = 1.;
+  std::vector<unsigned int> every(n_moments);
+  std::iota(every.begin(), every.end(), 0U);
+  const FullMatrix<double> &S = compliance.matrix();
+  FullMatrix<double> of_v = part(R, all.friction, every);
+  if (!all.held.empty())
+    of_v.add(-1., reduced(part(S, all.held, all.held), part(S, all.held, all.friction),
+                          part(R, all.held, every)));
+  FullMatrix<double> of_X = reduced(S, E, R);
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = 0; j < n_moments; ++j)
+      of_X(i, j) *= D[i];
+  FullMatrix<double> W(n, 3 * n_cells + n_moments);
+  W.fill(matrices.by_factor(of_v), 0, 0, 0, 0); // whose moments of a kind stand together
+  W.fill(matrices.times_factor(of_X), 0, 3 * n_cells, 0, 0);
+  for (unsigned int first = 0; first < W.n(); first += n_cells)
+  {
+    double longest = 0;
+    for (unsigned int j = first; j < first + n_cells; ++j)
+    {
+      double square = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        square += W(i, j) * W(i, j);
+      longest = std::max(longest, std::sqrt(square));
+    }
+    for (unsigned int i = 0; longest > 0. && i < n; ++i)
+      for (unsigned int j = first; j < first + n_cells; ++j)
+        W(i, j) /= longest;
+  }
+  return W;
+}
+
 CoulombCoupling::Localised CoulombCoupling::localised(const ContactStrip &strip,
                                                       const SlipDirection &chi,
                                                       const std::vector<bool> &sticks) const
@@ -263,49 +311,11 @@ CoulombCoupling::Localised CoulombCoupling::localised(const ContactStrip &strip,
         return [&](const Solution<2> &response) { rows.push_back(moments->of(response)); };
       });
   const Unknowns all = unknowns(compliance, friction);
-  const unsigned int n = all.friction.size(), n_moments = moments->n();
-  if (n == 0)
+  if (all.friction.empty())
     return result;
   const Vector<double> D(all.coefficients.begin(), all.coefficients.end());
   const CouplingMatrices &matrices = compliance.matrices(all.friction, all.pressures, all.held);
-  FullMatrix<double> R(rows.size(), n_moments), E(rows.size(), n);
-  for (unsigned int i = 0; i < rows.size(); ++i)
-    for (unsigned int j = 0; j < n_moments; ++j)
-      R(i, j) = rows[i][j];
-  for (unsigned int j = 0; j < n; ++j)
-    E(all.pressures[j], j) = 1.;
-  std::vector<unsigned int> every(n_moments);
-  std::iota(every.begin(), every.end(), 0U);
-  const FullMatrix<double> &S = compliance.matrix();
-  FullMatrix<double> of_v = part(R, all.friction, every);
-  if (!all.held.empty())
-    of_v.add(-1., reduced(part(S, all.held, all.held), part(S, all.held, all.friction),
-                          part(R, all.held, every)));
-  FullMatrix<double> of_X = reduced(S, E, R);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n_moments; ++j)
-      of_X(i, j) *= D[i];
-  of_v = matrices.by_factor(of_v);
-  of_X = matrices.times_factor(of_X);
-  // Three kinds of v, nine of X, in units of their own: the longest of each counts alike.
-  const unsigned int n_cells = n_moments / StripMoments::n_kinds;
-  FullMatrix<double> W(n, 3 * n_cells + n_moments);
-  W.fill(of_v, 0, 0, 0, 0); // whose moments of a kind stand together
-  W.fill(of_X, 0, 3 * n_cells, 0, 0);
-  for (unsigned int first = 0; first < W.n(); first += n_cells)
-  {
-    double longest = 0;
-    for (unsigned int j = first; j < first + n_cells; ++j)
-    {
-      double square = 0;
-      for (unsigned int i = 0; i < n; ++i)
-        square += W(i, j) * W(i, j);
-      longest = std::max(longest, std::sqrt(square));
-    }
-    for (unsigned int i = 0; longest > 0. && i < n; ++i)
-      for (unsigned int j = first; j < first + n_cells; ++j)
-        W(i, j) /= longest;
-  }
+  const FullMatrix<double> W = moment_columns(compliance, all, matrices, D, rows);
   const auto [largest, on_complement] =
       with_complement(matrices.symmetric(D), W, cells.kappa * cells.kappa);
   result.above = std::max(result.above, std::sqrt(largest));

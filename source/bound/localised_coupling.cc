@@ -462,7 +462,7 @@ StripMoments::StripMoments(const ContactStrip &strip, const StripCells &cells,
 
 std::vector<double> StripMoments::of(const Solution<2> &solution) const
 {
-  std::vector<double> result(n());
+  std::vector<double> result(n_kinds * n_cells);
   for (const Part &part : parts)
   {
     const std::vector<double> coefficients = solution.coefficients(part.cell);

@@ -81,6 +81,11 @@ private:
   struct Unknowns;
   struct Boundary;
   Unknowns unknowns(const ContactCompliance &compliance, const FrictionAlong &friction) const;
+  static dealii::FullMatrix<double> moment_columns(ContactCompliance &compliance,
+                                                   const Unknowns &all,
+                                                   const CouplingMatrices &matrices,
+                                                   const dealii::Vector<double> &D,
+                                                   const std::vector<std::vector<double>> &rows);
   double closed_forms(const SlipDirection &chi, const std::vector<bool> &sticks) const;
 
   const Solution<2> &solution;

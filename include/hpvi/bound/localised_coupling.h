@@ -101,12 +101,7 @@ public:
   StripMoments(const ContactStrip &strip, const StripCells &cells, const Spaces<2> &spaces,
                const Material &material);
 
-  unsigned int n() const ///< kind by kind, by cell
-  {
-    return n_kinds * n_cells;
-  }
-
-  std::vector<double> of(const Solution<2> &solution) const;
+  std::vector<double> of(const Solution<2> &solution) const; ///< kind by kind, by cell
 
 private:
   struct Part
